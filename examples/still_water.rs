@@ -1,10 +1,10 @@
-//! Still water over a mound with units: the pressure at the gauges must stay hydrostatic.
+//! Still water over a mound with units: prints the computed and the hydrostatic pressure at each gauge.
 //!
 //!     cargo run --release --example still_water
 
 use std::{error::Error, sync::Arc};
 
-use breakwater::{Case, Simulation};
+use breakwater::{Case, Simulation, case::Quantity};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let case = Arc::new(Case::load("cases/verification/still-water.json")?);
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     let mut now = simulation.begin_step()?;
-    for gauge in &case.gauges {
+    for gauge in case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Pressure) {
         let point = now.gauge_position(gauge);
         if let Some(sample) = now.sampler()?.sample(point) {
             let depth = case.flume.still_water_level - point.z;

@@ -13,7 +13,7 @@
 //! use breakwater::{Case, Simulation};
 //! use glam::DVec3;
 //!
-//! // Still water, 0.2 m deep, in a tank of 0.5 m; lengths in metres.
+//! // Still water, 0.2 m deep, in a tank 0.5 m long; the keys are in metres.
 //! let case = Case::from_str(r#"{
 //!     "title": "Still water",
 //!     "flume": { "bed_m": [[0.0, 0.0], [0.5, 0.0]], "still_water_level_m": 0.2 },
@@ -28,6 +28,7 @@
 //! // `begin_step` evaluates the current state. Then the water can be sampled at any point.
 //! let mut now = simulation.begin_step()?;
 //! let sample = now.sampler()?.sample(DVec3::new(0.25, 0.0, 0.1)).expect("water at mid-depth");
+//! // Limit 50 Pa: 5 % of the hydrostatic pressure at mid-depth, 981 Pa.
 //! assert!((sample.pressure - 1000.0 * 9.81 * 0.1).abs() < 50.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -38,7 +39,7 @@
 //!
 //! # The modules, from the top down
 //!
-//! A module uses only the modules below it.
+//! A module uses only modules below it in this table.
 //!
 //! | module | content |
 //! | --- | --- |

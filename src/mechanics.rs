@@ -74,7 +74,7 @@ impl Load {
         Self { force, torque: arm.cross(force) }
     }
 
-    /// Returns a load whose force and torque are the results of `f` for the force and the torque of this load.
+    /// Returns a load with the force `f(force)` and the torque `f(torque)`.
     pub fn map(self, f: impl Fn(DVec3) -> DVec3) -> Self {
         Self { force: f(self.force), torque: f(self.torque) }
     }

@@ -15,7 +15,7 @@ impl SplitMix64 {
         Self { state: seed }
     }
 
-    /// Returns a random number, uniformly distributed from 0 to less than 1, with 53 random bits.
+    /// Returns a random number, uniformly distributed from 0 (included) to 1 (excluded), with 53 random bits.
     pub fn next_share(&mut self) -> f64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;
@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn generator_reproduces_the_published_numbers() {
-        // First outputs of SplitMix64 for the seed 1234567 (Steele et al.; Vigna's reference code).
+        // First two outputs of SplitMix64 for the seed 1234567, from the reference code of S. Vigna.
         let mut random = SplitMix64::new(1_234_567);
         let expected = [6_457_827_717_110_365_317u64, 3_203_168_211_198_807_973];
         for number in expected {

@@ -154,7 +154,7 @@ fn bad_reference_folders_are_refused_with_key_value_and_advice() {
     write_reference(folder.path(), &reference());
     fs::write(folder.path().join("short.csv"), "first,second,code\n0.02,0.02,0\n0.08,wet,0\n0.02,0.02,0\n").unwrap();
     let message = Reference::load(folder.path()).unwrap_err().to_string();
-    assert!(message.contains("line 3 is not 3 numbers; separate numbers by commas"), "{message}");
+    assert!(message.contains("line 3 is not 3 numbers; separate the numbers by commas"), "{message}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-// Measures the peak arithmetic speed and memory bandwidth of a graphics card; used by card.rs.
+// Test programs with which card.rs measures the peak arithmetic speed and the memory bandwidth of a graphics card.
 
 @group(0) @binding(0) var<storage, read_write> a: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> b: array<vec4<f32>>;
@@ -6,7 +6,8 @@
 
 const ROUNDS = 1024u;
 
-// Four independent chains of four numbers each; 2 x 16 x ROUNDS operations per thread.
+// Computes four independent chains of multiply-adds on vectors of four numbers; each thread does 2 x 16 x ROUNDS
+// operations.
 @compute @workgroup_size(64)
 fn multiply_and_add(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
                     @builtin(local_invocation_index) local: u32) {
@@ -23,7 +24,7 @@ fn multiply_and_add(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgr
     a[i] = chains[0] + chains[1] + chains[2] + chains[3];
 }
 
-// Reads two arrays and writes one.
+// Computes a = b + c / 2: reads two arrays and writes one array.
 @compute @workgroup_size(64)
 fn triad(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
          @builtin(local_invocation_index) local: u32) {

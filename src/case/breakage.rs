@@ -9,7 +9,7 @@ use super::units::shape::UnitShape;
 use crate::femdem::mesh;
 use crate::femdem::mesh::UnitMesh;
 
-/// Largest number of impacts computed at the same time.
+/// Largest number of impacts that are computed at the same time.
 const MOST_CORES: usize = 1024;
 
 /// Settings of the breakage analysis; SI units.
@@ -156,8 +156,8 @@ fn read_mesh(file: &BreakageFile, shape: &UnitShape, name: &str, check: &mut Che
     }
 }
 
-/// Warns if the mean edge of the elements is longer than a quarter of the characteristic length. Such elements do not
-/// resolve cracks.
+/// Warns if the mean edge of the elements, at prototype scale, is longer than a quarter of the characteristic length
+/// E G_f / f_t^2. Such elements do not resolve cracks.
 fn warn_of_coarse_mesh(settings: &BreakageSettings, check: &mut Checker) {
     let [opening, _] = settings.characteristic_lengths();
     let edge = settings.mesh.edge() * settings.scale;

@@ -213,7 +213,8 @@ fn validate_test(file: &DryTestFile, check: &mut Checker) -> (DryTestKind, f64) 
     match file {
         DryTestFile::Settle {} => (DryTestKind::Settle, 0.0),
         DryTestFile::Drop(drop) => {
-            check.number("dry_test.height_m", drop.height_m, more_than(0.0).up_to(100.0), "m", "write the lift height");
+            let advice = "write the height by which the units are lifted";
+            check.number("dry_test.height_m", drop.height_m, more_than(0.0).up_to(100.0), "m", advice);
             (DryTestKind::Drop, drop.height_m)
         }
         DryTestFile::Tilt(tilt) => {
@@ -226,7 +227,7 @@ fn validate_test(file: &DryTestFile, check: &mut Checker) -> (DryTestKind, f64) 
                 "degrees",
                 "write the largest tilt angle",
             );
-            let advice = "below this speed a unit counts as at rest";
+            let advice = "a unit that is faster than this speed counts as sliding";
             check.number("dry_test.slide_speed_m_s", tilt.slide_speed_m_s, more_than(0.0).up_to(1.0), "m/s", advice);
             let (rate, to, slide_speed) =
                 (tilt.rate_deg_s.to_radians(), tilt.to_deg.to_radians(), tilt.slide_speed_m_s);

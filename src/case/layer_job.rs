@@ -19,7 +19,7 @@ pub struct Armour {
     pub x: [f64; 2],
     /// Number of layers.
     pub layers: u32,
-    /// Packing density [-]: number of units in all layers per slope area of D_n^2.
+    /// Packing density [-]: number of units in all layers per slope area of D_n^2, with the nominal diameter D_n.
     pub packing_density: f64,
     /// Rotation of the units before they are lowered onto the slope.
     pub orientation: ArmourOrientation,
@@ -74,7 +74,7 @@ impl LayerJob {
         [end(x0)].into_iter().chain(inner).chain([end(x1)]).collect()
     }
 
-    /// Returns the slope area under the layers over D_n^2 [-].
+    /// Returns the slope area under the layers over D_n^2 [-], with the nominal diameter D_n of a unit.
     pub fn area(&self) -> f64 {
         let length: f64 = self.slope().windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum();
         length * self.site.width / self.units.shape.nominal_diameter().powi(2)

@@ -11,8 +11,8 @@ pub(super) use read::validate;
 
 pub use crate::case::file::{ReferenceWaveKind, SeriesRole};
 
-/// Largest relative difference between the wave heights or periods of a run and of the reference [-]. It allows for
-/// rounding in papers.
+/// Largest relative difference [-] at which the wave heights, or the periods, of a run and of the reference count as
+/// equal. Papers give rounded values.
 const TOLERANCE: f64 = 0.005;
 
 /// The validated contents of a reference folder.

@@ -20,8 +20,8 @@ use crate::{
 ///
 /// A "full evaluation" computes continuity, density diffusion, pressure and viscosity of one particle. A time step has
 /// two full evaluations per particle, and also sorting, neighbour lists and the boundary. The rate of full evaluations
-/// includes boundary particles, although mDBC computes only their density. The rate of water particles alone is printed
-/// after it.
+/// includes boundary particles, although mDBC computes only their density. The number in brackets after this rate is
+/// the rate for water particles only.
 #[derive(Args)]
 pub struct BenchArguments {
     /// Number of water particles.
@@ -42,8 +42,8 @@ pub struct BenchArguments {
     /// Device to measure: cpu, gpu, or gpu:N as listed by `breakwater devices`.
     #[arg(long, value_name = "DEVICE", default_value = "cpu")]
     device: DeviceChoice,
-    /// Also write the measurements to this JSON file; its top-level keys are the last measurement, moving water with
-    /// all threads; default: not written.
+    /// Also write the measurements to this JSON file; its top-level keys have the values of the last measurement
+    /// (moving water, all threads); default: not written.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
@@ -132,8 +132,8 @@ impl BenchArguments {
     }
 }
 
-/// Writes the list of measurements. The top-level keys are the last measurement: moving water with all threads, as in a
-/// run.
+/// Writes the list of measurements. The top-level keys have the values of the last measurement: moving water with all
+/// threads, as in a run.
 fn write_json(
     path: Option<&Path>,
     measurements: &[Measurement],
@@ -157,7 +157,7 @@ fn print(measured: &Measurement) {
         measured.steps
     );
     println!(
-        "  {:.2} million full evaluations/s ({:.2} of water), {:.0} million pairs/s, {:.0} bytes per particle",
+        "  {:.2} million full evaluations/s ({:.2} million for water), {:.0} million pairs/s, {:.0} bytes per particle",
         measured.full_evaluations_per_s / 1e6,
         measured.water_evaluations_per_s / 1e6,
         measured.pairs_per_s / 1e6,

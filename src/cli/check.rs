@@ -21,11 +21,12 @@ use crate::{
 };
 
 /// Full evaluations per second and core [1/s], assumed in the estimate of the run time. A time step has two full
-/// evaluations per particle. `breakwater bench` measures 1.5 million with AVX-512; a run also computes gauges, outputs
-/// and contact.
+/// evaluations per particle. `breakwater bench` measures 1.5 million with AVX-512. The estimate uses a smaller value,
+/// because a run also computes gauges, outputs and contact.
 const EVALUATIONS_PER_S_AND_CORE: f64 = 1.2e6;
 
-/// Full evaluations per second and core in two dimensions [1/s], where a particle has one sixth as many neighbours.
+/// Full evaluations per second and core in two dimensions [1/s]. The rate is higher than in three dimensions, because a
+/// particle has only one sixth of the neighbours.
 const EVALUATIONS_IN_TWO_DIMENSIONS: f64 = 2.4e6;
 
 /// Validate input files, and estimate the number of particles, memory, file sizes, time step and run time.

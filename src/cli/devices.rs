@@ -32,7 +32,7 @@ impl DeviceArgument {
             device = Device::Cpu;
         }
         if let (Some(reason), false) = (reason, quiet) {
-            eprintln!("computing on the CPU: {reason}");
+            eprintln!("computing on the processor: {reason}");
         }
         Ok(device)
     }
@@ -70,7 +70,7 @@ fn list_cards() {
         let memory =
             card.memory.map_or_else(|| "memory unknown".to_owned(), |bytes| format!("{:.1} GB", bytes as f64 / 1e9));
         println!(
-            "       {memory}, buffers of at most {:.2} GB: fits {:.1} million particles",
+            "       {memory}, buffers of at most {:.2} GB: room for {:.1} million particles",
             card.largest_binding.min(card.largest_buffer) as f64 / 1e9,
             max_particles(card) as f64 / 1e6
         );

@@ -56,7 +56,7 @@ pub(super) fn fresh_folder(dir: &Path, overwrite: bool) -> Result<(), CommandErr
     let occupied = std::fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_some());
     if occupied && !overwrite {
         return Err(CommandError::refused(format!(
-            "{}: the folder is not empty; choose another with --out DIR, or add --overwrite to replace its results \
+            "{}: the folder is not empty; choose another one with --out DIR, or add --overwrite to replace its results \
              (to continue an interrupted run: breakwater resume {})",
             dir.display(),
             dir.display()

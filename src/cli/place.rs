@@ -11,7 +11,7 @@ use crate::{
     simulation::armour_layer::{PlacementError, place},
 };
 
-/// Largest acceptable overlap divided by the height of a unit [-].
+/// Overlap at the end, divided by the height of a unit [-], above which `place` gives a warning.
 const GOOD_OVERLAP: f64 = 0.01;
 
 /// Place armour layers: lower the units of a case one by one onto the slope, without water, until they are at rest.
@@ -38,7 +38,7 @@ impl PlaceArguments {
         let job = LayerJob::from_document(&document).map_err(CommandError::refused)?;
         let out = self.out.unwrap_or_else(|| self.case.with_extension("placement.json"));
         if out.exists() && !self.overwrite {
-            let what = "exists already; add --overwrite to replace it, or choose another with --out FILE";
+            let what = "exists already; add --overwrite to replace it, or choose another file with --out FILE";
             return Err(CommandError::refused(format!("{}: {what}", out.display())));
         }
         let (count, quiet) = (job.count(), self.quiet);
@@ -61,8 +61,8 @@ impl PlaceArguments {
         println!("{} units settled in {:.2} s of simulated time", placement.units.len(), placement.time);
         println!("  packing density {:.3}, {} units rolled off", placement.packing_density, placement.rolled_off);
         println!(
-            "  {} contacts, deepest overlap {:.3} % of the height; fastest unit {:.1e} m/s, kinetic energy {:.1e} of \
-             the potential energy released",
+            "  {} contacts, deepest overlap {:.3} % of the height; fastest unit {:.1e} m/s, kinetic energy {:.1e} \
+             times the released potential energy",
             placement.contacts,
             100.0 * placement.deepest_overlap,
             placement.fastest,

@@ -34,17 +34,17 @@ use crate::{
     },
 };
 
-/// Number of times that unfinished runs are submitted to Slurm.
+/// Largest number of submissions of an unfinished run to Slurm.
 const SUBMISSIONS: usize = 2;
 
-/// Run a case for every combination of the listed values, and collect the results in one table and chart.
+/// Run a case with the values that the sweep file lists, and collect the results in one table and chart.
 ///
-/// Finished runs are kept. To continue after an interruption, repeat the command. A failed run is started a second
-/// time.
+/// Finished runs are kept. To continue after an interruption, repeat the command. If a run fails, the command starts it
+/// a second time.
 #[derive(Args)]
 pub struct SweepArguments {
-    /// The sweep file: title, case and `vary`, a list of {"key": "friction[1].coefficient", "values": [0.3, 0.6]} or
-    /// {"key": ..., "from": 0.1, "to": 0.98, "count": 9}.
+    /// The sweep file, with the keys `title`, `case` and `vary`; `vary` is a list of entries such as
+    /// {"key": "friction[1].coefficient", "values": [0.3, 0.6]} or {"key": ..., "from": 0.1, "to": 0.98, "count": 9}.
     sweep: PathBuf,
     /// Folder of the results; default: runs/NAME, with the name of the sweep file.
     #[arg(long)]
@@ -87,7 +87,7 @@ impl SweepArguments {
             let (first, last) = (usize::from(sweep.start.is_none()), sweep.members.len());
             let member = sweep.member(number).ok_or_else(|| {
                 CommandError::refused(format!(
-                    "--member {number}: must be between {first} and {last}, the numbers of the runs"
+                    "--member {number}: must be the number of a run, between {first} and {last}"
                 ))
             })?;
             return self.make(&sweep, member, &dir);
@@ -141,7 +141,7 @@ impl SweepArguments {
                 Outcome::Missing => "not finished".to_owned(),
                 Outcome::Failed(words) => words.clone(),
             };
-            println!("{}: {result} ({left} left)", member.name);
+            println!("{}: {result} ({left} runs left)", member.name);
         };
         work.execute_all(program, members, jobs, tell).map_err(CommandError::failed)
     }

@@ -17,7 +17,7 @@ use crate::{
 pub struct UnitArguments {
     /// Shape of the unit.
     shape: CatalogueShape,
-    /// Height H [m]; for a Core-Loc, its size C.
+    /// Height H of the unit, or size C of a Core-Loc [m].
     #[arg(long, default_value_t = 1.0)]
     height_m: f64,
     /// Waist ratio of a Dolos: width of the stem divided by the height [-].
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn numbers_have_five_significant_digits() {
-        let texts = [0.000_127_62, 0.010_234_5, 2.236_32, 5255.352, 1_234_567.0].map(five_digits);
+        let texts = [0.000_127_62, 0.010_234_1, 2.236_32, 5255.352, 1_234_567.0].map(five_digits);
         assert_eq!(texts, ["1.2762e-4", "0.010234", "2.2363", "5255.4", "1234567"]);
     }
 }

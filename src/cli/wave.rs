@@ -46,11 +46,11 @@ impl WaveArguments {
         show_warnings(&case.warnings);
         let refuse = |reason: &str| Err(CommandError::refused(format!("{}: {reason}", self.case.display())));
         if matches!(case.wave, Wave::External(_)) {
-            return refuse("wave.kind: the wave is read from files of another program; there is no flume model");
+            return refuse("wave.kind: the wave is read from files of another program; this case has no flume model");
         }
         if case.wave != Wave::None && !case.wavemaker.is_ml_piston() {
             return refuse(
-                "wavemaker.kind: the paddle makes the wave in the particle domain; there is no flume model. \
+                "wavemaker.kind: the paddle makes the wave in the particle domain; this case has no flume model. \
                  `breakwater check` shows the wavelength and the stroke",
             );
         }

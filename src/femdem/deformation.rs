@@ -8,17 +8,19 @@ use super::element::{self, Deformed, LaneModuli, LaneShape, Moduli};
 use super::parallel::chunks::CHUNK;
 use super::parallel::lanes::{self, LANES, Lanes, Vectors, WithLanes};
 
-/// Share of the least strength [-]. The faces of a tetrahedron are checked for failure if its stress exceeds this
-/// share. To save time, this comparison uses the first Piola-Kirchhoff stress. Its relative difference from the Cauchy
-/// stress is of the order of the strains, far below the margin of 10 %.
+/// Share of the least strength of a body [-]. The faces of a tetrahedron are checked for failure only if the stress in
+/// the tetrahedron reaches this share. To save time, this comparison uses the norm of the first Piola-Kirchhoff stress.
+/// It differs from the norm of the Cauchy stress by a fraction of the order of the strains, far below the margin of 10
+/// %.
 const CHECK_SHARE: f64 = 0.9;
 
-/// Forces of all tetrahedra, with marks on tetrahedra near failure.
+/// Forces of all tetrahedra, and marks for the tetrahedra near failure.
 #[derive(Debug, Clone, Default)]
 pub struct Deformation {
-    /// Forces on the vertices [N].
+    /// Forces on the vertices of each tetrahedron [N].
     pub forces: Vec<[DVec3; 4]>,
-    /// For each tetrahedron, true if its stress is near the least strength of its body. Empty if no face is tied.
+    /// For each tetrahedron, true if its stress is near the least strength of its body. Empty if the world has no tied
+    /// faces at the start, because only tied faces need these marks.
     pub strained: Vec<bool>,
     sums: Vec<ChunkSum>,
 }
@@ -40,12 +42,12 @@ pub struct Bodies<'a> {
     pub moduli: &'a [Moduli],
     /// Least stress that can break each body [Pa].
     pub strength: &'a [f64],
-    /// Forces of each interface on the corners of its side 0 [N].
+    /// For each interface, the forces of its joint on the corners of side 0 [N]; the forces on side 1 are opposite.
     pub joints: &'a [[DVec3; 3]],
 }
 
 impl Deformation {
-    /// Creates the workspace for `count` tetrahedra; `tied` is true if some faces are tied.
+    /// Creates the workspace for `count` tetrahedra. `tied` is true if some faces are tied at the start.
     pub fn new(count: usize, tied: bool) -> Self {
         Self {
             forces: vec![[DVec3::ZERO; 4]; count],
@@ -93,7 +95,7 @@ impl WithLanes for Chunk<'_> {
         let mut sum = ChunkSum::default();
         let count = self.forces.len();
         for start in (0..count).step_by(LANES) {
-            // Unused lanes repeat the last tetrahedron.
+            // Lanes beyond the end of the chunk repeat its last tetrahedron; their results are not used.
             let number = |lane: usize| self.first + (start + lane).min(count - 1);
             let numbers = [number(0), number(1), number(2), number(3)];
             let deformed = self.deform::<L>(numbers);

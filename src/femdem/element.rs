@@ -1,8 +1,9 @@
 //! The linear tetrahedron: finite strain, neo-Hookean elasticity with viscosity.
 //!
-//! Deformation gradient F = sum x_i (x) grad N_i. Cauchy stress T = mu/J (B - I) + lambda ln J / J I + eta D, with
-//! B = F F^T and D the symmetric part of the velocity gradient (Xiang, Munjiza and Latham 2009). Nodal forces
-//! f_i = -V_0 P grad N_i with P = J T F^-T.
+//! Deformation gradient F = sum of x_i grad N_i^T, with the position x_i and the shape function N_i of vertex i. Cauchy
+//! stress T = mu/J (B - I) + (lambda ln J / J) I + eta D (Xiang, Munjiza and Latham 2009), with J = det F, B = F F^T,
+//! Lamé's constants lambda and mu, the viscosity eta and the symmetric part D of the velocity gradient. First
+//! Piola-Kirchhoff stress P = J T F^-T. Nodal forces f_i = -V_0 P grad N_i, with the undeformed volume V_0.
 
 use glam::{DMat3, DVec3};
 
@@ -33,7 +34,8 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// Computes the shape from the corners [m]. The right-hand normal of the first three points to the fourth.
+    /// Computes the shape from the corners [m]. Seen from the fourth corner, the first three are in anticlockwise
+    /// order.
     pub fn new(corners: &[DVec3; 4]) -> Self {
         let edges = edges(corners);
         Self { inverse: edges.inverse(), volume: edges.determinant() / 6.0 }
@@ -94,11 +96,11 @@ impl<L: Lanes> LaneShape<L> {
 pub struct Deformed<L> {
     /// Forces on the vertices 1 to 3 [N]; the force on vertex 0 is the negative of their sum.
     pub forces: [Vectors<L>; 3],
-    /// Volume ratio J [-]; not positive for an inverted element.
+    /// Volume ratio J, current over undeformed volume [-]; not positive for an inverted element.
     pub ratio: L,
     /// Power dissipated by viscosity [W].
     pub viscous_power: L,
-    /// Sum of the squares of the components of the first Piola-Kirchhoff stress, elastic part [Pa2].
+    /// Sum of the squares of the components of the elastic first Piola-Kirchhoff stress [Pa2].
     pub stress_squared: L,
 }
 
@@ -109,7 +111,7 @@ fn deformation(shape: &Shape, x: &[DVec3; 4]) -> (DMat3, DMat3) {
     (f, cofactor)
 }
 
-/// Elastic part of the first Piola-Kirchhoff stress [Pa]: mu (F - F^-T) + lambda ln J F^-T.
+/// Returns the elastic part of the first Piola-Kirchhoff stress [Pa]: mu (F - F^-T) + lambda ln J F^-T.
 fn elastic_stress(moduli: &Moduli, f: DMat3, inverse_transposed: DMat3, log_ratio: f64) -> DMat3 {
     f * moduli.mu + inverse_transposed * (moduli.lambda * log_ratio - moduli.mu)
 }
@@ -198,12 +200,13 @@ fn norm_squared_of<L: Lanes>(m: &Matrices<L>) -> L {
     m[0].dot(m[0]) + m[1].dot(m[1]) + m[2].dot(m[2])
 }
 
-/// Largest volume change |J - 1| for which a series gives ln J [-]. Concrete in tension breaks at less than a
-/// hundredth of this value.
+/// Largest volume change |J - 1| for which [`logarithm`] uses a series [-]. The volume of concrete in tension changes
+/// by less than a hundredth of this value before the concrete breaks.
 const SMALL_CHANGE: f64 = 0.02;
 
-/// Returns ln J = 2 (s + s^3/3 + s^5/5 + ...), s = (J - 1) / (J + 1). If J is near 1 in all lanes, five terms are exact
-/// to rounding. Otherwise, the library function is used.
+/// Returns ln J. If |J - 1| is at most [`SMALL_CHANGE`] in all lanes, the function uses five terms of the series
+/// ln J = 2 (s + s^3/3 + s^5/5 + ...), s = (J - 1) / (J + 1), which are exact to rounding. Otherwise, it uses
+/// `f64::ln`.
 #[inline(always)]
 fn logarithm<L: Lanes>(ratio: L) -> L {
     let one = L::splat(1.0);
@@ -285,7 +288,7 @@ mod tests {
         let spin = DVec3::new(3.0, -2.0, 5.0);
         let x = moved(|p| turn * p + DVec3::ONE);
         let answer = forces(&shape, &moduli, &x, &x.map(|p| spin.cross(p)));
-        // Tolerance: rounding, relative to E times an area.
+        // Tolerance: rounding of a force E V^(2/3), which would occur at strains of order one.
         let scale = CONCRETE.young_modulus * shape.volume.powf(2.0 / 3.0);
         assert!(answer.forces.iter().all(|f| f.length() < 1e-13 * scale), "{answer:?}");
         assert!((answer.ratio - 1.0).abs() < 1e-12);
@@ -296,7 +299,7 @@ mod tests {
         for change in [0.0f64, 1e-15, -3e-9, 1e-5, -0.0199, 0.02, 0.03, -0.7, 12.0] {
             let found = logarithm(Portable::load(&[1.0 + change; LANES])).to_array()[0];
             let expected = (1.0 + change).ln();
-            // Tolerance: rounding, two units in the last place of J - 1.
+            // Tolerance: rounding, about two units in the last place of ln J.
             assert!((found - expected).abs() <= 5e-16 * expected.abs(), "{change}: {found:e} {expected:e}");
         }
     }
@@ -317,7 +320,7 @@ mod tests {
                     energy(&shape, &moduli, &x)
                 };
                 let slope = -(energy_at(1.0) - energy_at(-1.0)) / (2.0 * step);
-                // Tolerance: central differences over 1e-6 of the element size, and rounding.
+                // Tolerance: error of central differences with increments of 1e-6 of the element size, and rounding.
                 assert!((slope - answer.forces[vertex - 1][axis]).abs() < 1e-6 * answer.forces[vertex - 1].length());
             }
         }
@@ -330,7 +333,7 @@ mod tests {
         let strain = sigma / CONCRETE.young_modulus;
         let x = moved(|p| p + strain * DVec3::new(p.x, -nu * p.y, -nu * p.z));
         let t = stress(&shape, &moduli, &x);
-        // Tolerance: quadratic terms of strains of 4e-8, and rounding of the positions.
+        // Tolerance: terms that are quadratic in the strain of 4e-8, and rounding of the positions.
         assert!(
             (t.x_axis.x / sigma - 1.0).abs() < 1e-6
                 && t.y_axis.y.abs() < 1e-6 * sigma

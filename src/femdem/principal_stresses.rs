@@ -30,7 +30,8 @@ mod tests {
         for given in [[5.0, 2.0, -7.0], [3.0, 3.0, -1.0], [4.0, 4.0, 4.0], [0.0, 0.0, 0.0]] {
             let tensor = turn * DMat3::from_diagonal(DVec3::from_array(given)) * turn.transpose();
             let found = principal_stresses(tensor);
-            // Tolerance: if two principal stresses are equal, the angle has the square root of the rounding error.
+            // Tolerance: if two principal stresses are equal, the error of `angle` is the square root of the rounding
+            // error.
             assert!(found.iter().zip(given).all(|(a, b)| (a - b).abs() < 1e-6), "{found:?} {given:?}");
         }
     }

@@ -22,18 +22,19 @@ pub struct Body {
     pub cohesion: Option<Cohesion>,
     /// True if the body is rigid. A rigid body cannot crack.
     pub rigid: bool,
-    /// Contact penalty: stress per unit of contact potential [Pa]. Two bodies in contact use the smaller penalty.
+    /// Contact penalty: stress per unit of contact potential [Pa]. The contact of two bodies uses the smaller of their
+    /// penalties.
     pub contact_penalty: f64,
     /// Velocity of the point `pivot` at the start [m/s].
     pub velocity: DVec3,
-    /// Angular velocity at the start [rad/s] about `pivot`.
+    /// Angular velocity about `pivot` at the start [rad/s].
     pub angular_velocity: DVec3,
     /// Point to which `velocity` refers [m].
     pub pivot: DVec3,
 }
 
-/// Default contact penalty over Young's modulus [-]. A contact is then eight times as stiff as the tetrahedron behind
-/// it (see [`super::world::time_step::contact_stiffness`]).
+/// Default contact penalty over Young's modulus [-]. With 1, a contact is eight times as stiff as the tetrahedron
+/// behind it (see [`super::world::time_step::contact_stiffness`]).
 const CONTACT_PENALTY: f64 = 1.0;
 
 /// Prescribed velocities of nodes.
@@ -71,9 +72,10 @@ pub struct Setup {
     pub interfaces: Vec<Interface>,
     /// Numbers of the interfaces that are broken at the start (pre-cracks).
     pub cracks: Vec<u32>,
-    /// Numbers of the tetrahedra on the surface and at pre-cracks, in ascending order.
+    /// Numbers of the tetrahedra with a face on the surface or at a pre-crack, in ascending order.
     pub outer: Vec<u32>,
-    /// Friction coefficients between bodies [-], one row per body. The diagonal applies to crack faces of one body.
+    /// Friction coefficients between bodies [-], one row and one column per body. The diagonal applies to the crack
+    /// faces within a body.
     pub friction: Vec<Vec<f64>>,
     /// Constraints: nodes with prescribed velocities.
     pub constraints: Vec<Constraint>,
@@ -108,7 +110,7 @@ impl Setup {
     }
 
     /// Creates a setup without gravity, friction, constraints and loads. `bodies` are in the order of the bodies of the
-    /// mesh. The faces of crack sets are broken at the start.
+    /// mesh. In bodies that can crack, the faces of crack sets are broken at the start.
     pub fn of_mesh(prepared: &PreparedMesh, bodies: Vec<Body>) -> Self {
         let PreparedMesh { mesh, faces, .. } = prepared;
         let can_crack = |tet: u32| bodies.iter().any(|b| b.cohesion.is_some() && b.tets.contains(&(tet as usize)));

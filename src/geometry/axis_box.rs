@@ -53,7 +53,8 @@ impl AxisBox {
         point.clamp(self.low, self.high)
     }
 
-    /// For each open face: depth of the point behind the face [m], and vector from the point to the face [m].
+    /// Returns for each open face the depth of the point behind the face [m], and the vector from the point to the face
+    /// [m].
     fn paths_to_open_faces(&self, point: DVec3) -> impl Iterator<Item = (f64, DVec3)> + use<> {
         let (low, high, open) = (self.low, self.high, self.open);
         (0..3).flat_map(move |axis| {

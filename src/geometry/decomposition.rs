@@ -1,4 +1,5 @@
-//! Convex parts of a body by parry's approximate decomposition (VHACD, Mamou 2016), and their volume error.
+//! Convex parts of a body by approximate decomposition (VHACD, Mamou 2016, from the library parry), and their volume
+//! error.
 
 use glam::DVec3;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
@@ -85,7 +86,7 @@ mod tests {
     fn exact_parts_have_no_volume_error() {
         let unit = ArmourUnit::dolos(1.0, 0.36, 0.03).unwrap();
         let found = measure(unit.solid(), dolos::blocks(1.0, 0.36).unwrap());
-        // The surface is the union of these parts; a few sample points may lie on it.
+        // The surface is the union of these parts, so only sample points on the surface can count as errors.
         assert!(found.volume_error < 1e-3, "{}", found.volume_error);
         let found = measure(unit.solid(), dolos::blocks(1.0, 0.36).unwrap()[1..].to_vec());
         assert!(found.volume_error > 0.1, "{}", found.volume_error);

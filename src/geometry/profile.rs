@@ -10,7 +10,8 @@ impl Profile {
     /// Creates the profile through `points` [x, z] in metres.
     ///
     /// # Panics
-    /// If there are fewer than two points or x does not increase strictly. The case validation checks both before.
+    /// If there are fewer than two points or x does not increase strictly. The case validation checks both conditions
+    /// first.
     pub fn new(points: Vec<[f64; 2]>) -> Self {
         assert!(points.len() >= 2, "a profile needs at least two points");
         assert!(points.windows(2).all(|w| w[1][0] > w[0][0]), "x of a profile must increase");

@@ -1,8 +1,8 @@
 //! A body bounded by a closed triangle surface: signed distance, volume, inertia tensor.
 //!
-//! Distances come from parry's oriented triangle mesh. Its pseudo-normals give the correct sign at edges and vertices
-//! (Baerentzen & Aanaes 2005). Volume and inertia are exact sums over the tetrahedra that each triangle forms with a
-//! reference point (Tonon 2004).
+//! Distances come from the oriented triangle mesh of the library parry. Its pseudo-normals give the correct sign at
+//! edges and vertices (Baerentzen & Aanaes 2005). Volume and inertia are exact sums over the tetrahedra that each
+//! triangle forms with a reference point (Tonon 2004).
 
 use std::collections::HashMap;
 
@@ -174,7 +174,7 @@ fn check_closed(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), SolidE
         }
     }
     let ends = |edge: &[u32; 2]| (vertices[edge[0] as usize], vertices[edge[1] as usize]);
-    // The smallest such edge is reported, which makes the message reproducible.
+    // The edge with the lowest vertex indices is reported, so that the message is always the same.
     if let Some((edge, _)) = edges.iter().filter(|(_, count)| **count > 1).min() {
         let (a, b) = ends(edge);
         return Err(SolidError::NotOriented { a, b });
@@ -192,8 +192,8 @@ fn check_closed(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), SolidE
 
 /// Volume, centroid and inertia tensor as sums over signed tetrahedra (o, a, b, c) with a point o near the middle.
 ///
-/// Volume of a tetrahedron V = a.(b x c)/6; second moments
-/// int x x^T dV = V/20 (a a^T + b b^T + c c^T + s s^T), s = a + b + c, with o as the origin.
+/// With o as the origin and s = a + b + c, a tetrahedron has the volume V = a.(b x c)/6 and the second moments
+/// int x x^T dV = V/20 (a a^T + b b^T + c c^T + s s^T).
 fn volume_properties(vertices: &[DVec3], triangles: &[[u32; 3]]) -> VolumeProperties {
     let origin = vertices.iter().sum::<DVec3>() / vertices.len() as f64;
     let (mut volume, mut first, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);

@@ -60,7 +60,7 @@ fn facets(bytes: &[u8], path: &Path, scale: f64) -> Result<Facets, StlError> {
     for (index, facet) in facets.enumerate() {
         let facet = facet.map_err(|e| format(format!("triangle {index}: {e}")))?;
         let corners = facet.vertices.map(|v| {
-            // Adding zero changes -0 to +0, because their bits differ.
+            // Adding zero changes -0 to +0. Otherwise two equal coordinates could have different bits.
             let [x, y, z] = v.0.map(|c| c + 0.0);
             *known.entry([x.to_bits(), y.to_bits(), z.to_bits()]).or_insert_with(|| {
                 vertices.push(scale * DVec3::new(x.into(), y.into(), z.into()));
@@ -120,7 +120,7 @@ mod tests {
         write(&path, unit.solid().vertices(), unit.solid().triangles()).unwrap();
         let back = read(&path, 1.0).unwrap();
         assert_eq!(back.triangles().len(), unit.solid().triangles().len());
-        // Coordinates are stored with 24 bits, a relative error of 6e-8.
+        // Coordinates are stored with 24 bits, so their relative error is up to 6e-8.
         let ratio = back.volume_properties().volume / unit.solid().volume_properties().volume;
         assert!((ratio - 1.0).abs() < 1e-6);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file was not removed");

@@ -1,7 +1,8 @@
 //! A fixed open or closed triangle surface that units can touch, for example a rock, a survey or a model of a mound.
 //!
 //! The surface is a set of elements that can be nearest to a convex body: triangles, convex edges (ridges) and corners.
-//! Edges in flat or concave areas are never nearest and are left out. Border edges, with one triangle, are ridges.
+//! Edges in flat or concave areas are never nearest and are left out. Border edges, which belong to one triangle only,
+//! count as ridges.
 
 use std::collections::HashMap;
 
@@ -91,8 +92,8 @@ impl SurfaceElement {
 /// Sine of the angle below which two triangles count as one plane [-].
 const STRAIGHT: f64 = 1e-6;
 
-/// A triangle counts as a line if (2 area)^2 / (longest edge)^4 is at most this value [-]. The 24 bits of a binary STL
-/// file resolve a coordinate to 6e-8 of its value.
+/// A triangle counts as a line if (2 area)^2 / (longest edge)^4 is at most this value [-]. Such a triangle has no
+/// reliable normal, because the 24 bits of a binary STL file resolve a coordinate to 6e-8 of its value.
 const LINE: f64 = 1e-14;
 
 /// A fixed triangle surface.
@@ -206,7 +207,7 @@ fn edges(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Edges, TerrainErr
             let (edge, sense) = if p < q { ([p, q], 0) } else { ([q, p], 1) };
             let side = &mut sides.entry(edge).or_default()[sense];
             if side.replace(index).is_some() {
-                // The smallest such edge is reported, which makes the message reproducible.
+                // The edge with the lowest vertex indices is reported, so that the message is always the same.
                 wrong = Some(wrong.map_or(edge, |known| known.min(edge)));
             }
         }
@@ -226,13 +227,13 @@ fn ridges(vertices: &[DVec3], triangles: &[[u32; 3]], faces: &[Face], edges: &Ed
         let ends = edge.map(|v| vertices[v as usize]);
         let along = (ends[1] - ends[0]).normalize();
         let into = |side: &usize| {
-            // The corner opposite the edge.
+            // `third` is the corner opposite the edge.
             let third = triangles[*side].into_iter().find(|v| !edge.contains(v)).unwrap_or(edge[0]);
             let direction = vertices[third as usize] - ends[0];
             (direction - along * direction.dot(along)).normalize()
         };
         let into: Vec<DVec3> = sides.iter().map(into).collect();
-        // Convex: the second triangle lies behind the plane of the first.
+        // The edge is convex if the second triangle lies behind the plane of the first.
         let is_convex = sides.len() == 1 || faces[sides[0]].normal.dot(into[1]) < -STRAIGHT;
         is_convex.then_some((*edge, Ridge { ends, into }))
     };
@@ -280,10 +281,10 @@ pub(crate) mod tests {
     #[test]
     fn box_has_twelve_ridges_and_eight_corners() {
         let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
-        // The six diagonals lie in flat faces.
+        // The six diagonals lie in flat faces, so they are not ridges.
         assert_eq!(count(&Terrain::new(vertices.clone(), triangles.clone()).unwrap()), [12, 12, 8]);
         let inside_out = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
-        // A room seen from inside: all edges are concave.
+        // In a room seen from inside, all edges are concave.
         assert_eq!(count(&Terrain::new(vertices, inside_out).unwrap()), [12, 0, 0]);
     }
 

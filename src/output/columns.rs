@@ -1,10 +1,11 @@
 //! Column names of the tables in a run folder. The names include the units.
 //!
-//! In every table of a flume case, `time_s` is flume time, which is 0 when the wavemaker starts.
+//! In every table of a flume case, `time_s` is flume time. It is 0 at the start of the flume model or, without this
+//! model, at the start of the particles. For waves from files, it is the time of these files.
 
 /// `units.csv`: one row per unit and output time. `unit` counts from 1. `x_m` to `z_m` is the centre of mass, `qx` to
 /// `qw` the orientation of the body axes (quaternion). `fluid_*` is the load from the water, `contact_*` the load from
-/// bed and neighbouring units: forces [N] and torques [N m] about the centre of mass, averaged over the time since the
+/// bed, walls and other units: forces [N] and torques [N m] about the centre of mass, averaged over the time since the
 /// previous row.
 pub const UNITS: [&str; 27] = [
     "time_s",
@@ -36,9 +37,10 @@ pub const UNITS: [&str; 27] = [
     "contact_tz_nm",
 ];
 
-/// `contacts.csv`: one row per contact event. `partner` is the other unit, counted from 1, or 0 for the bed. `bx_m`,
-/// `by_m`, `bz_m` is the contact position in the body axes of the unit, relative to its centre of mass. `rebound_m_s`
-/// is the normal velocity at the end of the event, positive if the bodies separate.
+/// `contacts.csv`: one row per contact event. `partner` is the number of the other unit, from 1, or 0 for bed and
+/// walls. `bx_m`, `by_m`, `bz_m` is the contact position in the body axes of the unit, relative to its centre of mass.
+/// `normal_velocity_m_s` and `tangential_velocity_m_s` are the approach velocities at the start of the event.
+/// `rebound_m_s` is the normal velocity at its end, positive if the bodies separate.
 pub const CONTACTS: [&str; 15] = [
     "start_s",
     "end_s",
@@ -62,9 +64,9 @@ pub const CONTACTS: [&str; 15] = [
 pub const DRY_ENERGY: [&str; 7] =
     ["time_s", "slope_deg", "kinetic_j", "potential_j", "elastic_j", "friction_j", "damping_j"];
 
-/// `energy.csv`: energy of the water and of the units. `from_*` is the energy that the water received since the start:
-/// from bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion, and from the damping and
-/// relaxation zones. Negative values are energy that the water lost.
+/// `energy.csv` of a flume run: energy of the water and of the units. `from_*` is the energy that the water received
+/// since the start: from bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion, and
+/// from damping and relaxation zones. Negative values are energy that the water lost.
 pub const ENERGY: [&str; 10] = [
     "time_s",
     "kinetic_j",
@@ -78,9 +80,9 @@ pub const ENERGY: [&str; 10] = [
     "from_zones_j",
 ];
 
-/// `energy.csv` of a fracture run: stored energy; energy dissipated and supplied since the start; residual of the
-/// energy balance; area of failed faces; pairs of tetrahedra in contact. `freed_j` is the energy that the springs of
-/// tied joints have when the joints are released.
+/// `energy.csv` of a fracture run: stored energies; energies dissipated and supplied since the start; residual of the
+/// energy balance; area of failed faces; number of pairs of tetrahedra in contact. `freed_j` is the energy that the
+/// springs of tied joints had when the joints were released.
 pub const FRACTURE_ENERGY: [&str; 14] = [
     "time_s",
     "kinetic_j",
@@ -115,7 +117,7 @@ pub const FRAGMENTS: [&str; 10] =
     ["fragment", "body", "tets", "mass_kg", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"];
 
 /// `breakage.csv`: one row per unit with its displacement and the results of its impacts re-run at prototype scale.
-/// The columns with results are empty if no impact of the unit was re-run.
+/// The columns from `sigma_1_pa` to `broken` are empty if no impact of the unit was re-run.
 pub const BREAKAGE: [&str; 10] = [
     "unit",
     "displacement_m",
@@ -129,10 +131,11 @@ pub const BREAKAGE: [&str; 10] = [
     "broken",
 ];
 
-/// `diagnostics.csv`: checks of the run. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` the
-/// change of this volume since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes
-/// over all time steps since the previous row. `rms_divergence_1_s` is the root mean square of div v over the water.
-/// `steps` counts from the start, `dt_s` is the length of the next time step. `lost_particles` must stay 0.
+/// `diagnostics.csv`: checks of the run. `volume_m3` is the volume of the water, the sum of mass / density of all water
+/// particles; `volume_change_m3` is its change since the first row. `largest_mach` (speed divided by speed of sound)
+/// and the densities are extremes of all time steps since the previous row. `rms_divergence_1_s` is the root mean
+/// square of div v of all water particles. `steps` is the number of time steps since the start, `dt_s` the length of
+/// the next time step. `lost_particles`, the number of water particles lost since the first row, must stay 0.
 pub const DIAGNOSTICS: [&str; 10] = [
     "time_s",
     "volume_m3",
@@ -164,7 +167,7 @@ pub fn velocity(name: &str) -> [String; 3] {
     ["u", "v", "w"].map(|c| format!("{name}_{c}_m_s"))
 }
 
-/// Returns the row of `contacts.csv` for an event. `offset` [s] is added to the times of the event.
+/// Returns the row of `contacts.csv` for an event. `offset` [s] is added to the event's times to give flume times.
 pub fn contact_row(event: &crate::rigid::ContactEvent, offset: f64) -> [f64; 15] {
     let ([x, y, z], [bx, by, bz]) = (event.point, event.point_in_body);
     [

@@ -107,11 +107,11 @@ pub struct Clock {
     pub time: f64,
     /// Simulated time at which the run ends at the latest [s].
     pub end: f64,
-    /// Number of time steps since the start of the run, including sessions before a restart.
+    /// Number of time steps since the start of the run, including the time steps before a resume.
     pub steps: u64,
 }
 
-/// Information that [`drive`] passes to a run before each time step.
+/// Wall-clock time and stop signal, which [`drive`] passes to a run before each time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Session {
     /// Wall-clock time since this process started or resumed the run [s].
@@ -139,8 +139,8 @@ pub trait Run {
     /// Returns the progress of the run.
     fn clock(&self) -> Clock;
 
-    /// Evaluates the current state and writes the outputs that are due. Then makes one time step. At the end of the
-    /// run, writes the final outputs and the summary instead; if the user stops the run, writes a checkpoint instead.
+    /// Evaluates the current state, writes the outputs that are due, and makes one time step. At the end of the run,
+    /// writes the final outputs and the summary instead. If the user stops the run, writes a checkpoint instead.
     ///
     /// # Errors
     /// If a file cannot be written or the state became invalid.
@@ -152,7 +152,7 @@ pub trait Run {
     /// If the file cannot be written.
     fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError>;
 
-    /// Returns details that the progress line shows after the time.
+    /// Returns the details at the end of the progress line.
     fn details(&self) -> String;
 
     /// Returns all warnings since the start of the run.

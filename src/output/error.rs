@@ -7,7 +7,7 @@ use crate::sph::solver::backend::DeviceError;
 /// A file of a run folder cannot be written or read, or is invalid.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// The data of an output cannot be read from the device that computes the water.
+    /// The data for an output file cannot be copied from the graphics card.
     #[error(transparent)]
     Device(#[from] DeviceError),
     /// An input or output operation of the operating system failed.

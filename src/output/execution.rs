@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 use sysinfo::{CpuRefreshKind, System};
 
-/// Computing time and machine. Summaries of two runs of the same case may differ only in these keys.
+/// Computing time and machine. If a case is run twice, the two summaries differ only in these keys.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Execution {
-    /// Wall-clock time, summed over all sessions of the run [s].
+    /// Wall-clock time of all sessions of the run [s]; in a dry test, of the last session only.
     pub wall_s: f64,
     /// Time steps per second of wall-clock time [1/s].
     pub steps_per_s: f64,

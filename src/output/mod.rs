@@ -1,15 +1,15 @@
-//! Writing and reading of the files in a run folder.
+//! Writes and reads the files of a run folder.
 //!
 //! | file of a run folder | written with | content |
 //! | --- | --- | --- |
-//! | `case.json` | [`write_atomically`] | the case as it was run |
+//! | `case.json` | [`write_atomically`] | copy of the case file |
 //! | `profile.csv` | [`CsvSeries`] | bed profile with the mound: `x_m`, `z_m` |
-//! | `gauges.csv`, `flume_gauges.csv` | [`CsvSeries`] | gauge series of the particles and of the flume model |
-//! | `units.csv`, `contacts.csv`, `energy.csv` | [`CsvSeries`] | unit motion and forces, contact events, energy |
+//! | `gauges.csv`, `flume_gauges.csv` | [`CsvSeries`] | gauges in the particle domain, and in the flume model |
+//! | `units.csv`, `contacts.csv`, `energy.csv` | [`CsvSeries`] | unit motion and loads, contact events, energy |
 //! | `impacts.h5` | [`Impacts`] | the hardest impacts of the units with their force histories |
 //! | `diagnostics.csv` | [`CsvSeries`] | checks of the water: volume, Mach number, densities, time steps |
 //! | `unit_surface.json` | [`UnitSurface`] | surface of a unit relative to its centre of mass |
-//! | `fluid.vtkhdf`, `units.vtkhdf` | [`PolyDataSeries`] | particles and moving surfaces, for ParaView |
+//! | `fluid.vtkhdf`, `units.vtkhdf` | [`PolyDataSeries`] | water particles, and surfaces of the units, for ParaView |
 //! | `report.html`, `picture.svg` | `report::run::write_report` | the report, and a picture of one moment of the run |
 //!
 //! [`columns`] defines the column names of the tables. A [`Writer`] writes large files while the run continues.

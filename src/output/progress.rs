@@ -21,8 +21,8 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Starts the display. `time` is the current simulated time, `duration` its value at the end of the run [s];
-    /// `steps` is the number of time steps so far.
+    /// Starts the display. `time` [s] is the current simulated time, and `duration` [s] the simulated time at the end
+    /// of the run; `steps` is the number of time steps so far.
     pub fn new(duration: f64, time: f64, steps: u64, quiet: bool) -> Self {
         let style =
             ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}").unwrap_or(ProgressStyle::default_bar());
@@ -83,7 +83,7 @@ impl Progress {
     }
 }
 
-/// Formats the simulated time and its end value; in milliseconds if the run is shorter than 0.1 s, as for impacts.
+/// Formats the simulated time and the duration of the run [s]; in milliseconds if the duration is shorter than 0.1 s.
 fn simulated(time: f64, duration: f64) -> String {
     if duration < 0.1 {
         format!("{:.3} of {:.3} ms", time * 1e3, duration * 1e3)

@@ -8,9 +8,9 @@ use super::OutputError;
 
 /// A CSV file of numbers with one header line, extended row by row.
 ///
-/// A number is written as the shortest text that reads back to the same bits; `NaN` is an empty field. Every call
-/// passes its rows to the operating system, so that no rows are lost if the run is killed. A checkpoint stores the
-/// length of the file [bytes]. A resumed run cuts the file at this length and then writes the same bytes as an
+/// A number is written as the shortest text that reads back to the same bits; `NaN` is an empty field. Every call that
+/// appends rows passes them to the operating system, so that no rows are lost if the run is killed. A checkpoint stores
+/// the length of the file [bytes]. A resumed run cuts the file at this length and then writes the same bytes as an
 /// uninterrupted run.
 #[derive(Debug)]
 pub struct CsvSeries {
@@ -48,7 +48,7 @@ impl CsvSeries {
             return Err(OutputError::content(path, what));
         };
         let Some(header) = kept.split(|b| *b == b'\n').next().filter(|_| kept.last() == Some(&b'\n')) else {
-            let what = format!("the checkpoint's length of {bytes} bytes is not the end of a line");
+            let what = format!("its length at the checkpoint, {bytes} bytes, is not the end of a line");
             return Err(OutputError::content(path, what));
         };
         let columns = header.split(|b| *b == b',').count();

@@ -3,18 +3,19 @@
 use super::columns;
 use crate::case::{Case, FluidField, Quantity};
 
-/// Size of a number in a CSV table, including its comma [bytes]; the tables of a run had 19.0 to 19.6.
+/// Mean size of a number in a CSV table, including its comma [bytes]. The tables of one run had 19.0 to 19.6 bytes.
 const BYTES_PER_NUMBER: f64 = 19.0;
-/// Number of columns: in `units.csv` per unit, in `energy.csv` and in `diagnostics.csv`.
+/// Numbers of columns of `units.csv` (which has one row per unit), `energy.csv` and `diagnostics.csv`.
 const UNIT_COLUMNS: f64 = columns::UNITS.len() as f64;
 const ENERGY_COLUMNS: f64 = columns::ENERGY.len() as f64;
 const DIAGNOSTICS_COLUMNS: f64 = columns::DIAGNOSTICS.len() as f64;
 /// Size of the position of a point in a snapshot: three f32 [bytes].
 const BYTES_PER_POINT: f64 = 12.0;
-/// Size of a cell [bytes]: its offset and one or three corners, as i64. A file stores the cells once for all snapshots.
+/// Size of a cell [bytes]: its offset, and one corner (vertex) or three corners (triangle), each an i64. A file stores
+/// the cells once for all snapshots.
 const BYTES_PER_VERTEX: f64 = 16.0;
 const BYTES_PER_TRIANGLE: f64 = 32.0;
-/// Space that a VTKHDF file reserves for short lists: five lists of 16384 i64 [bytes].
+/// Space that a VTKHDF file reserves for its short lists [bytes]: five lists of 16384 i64.
 const RESERVED: f64 = 5.0 * 16_384.0 * 8.0;
 /// Size of a vertex of a unit surface in a snapshot [bytes]: position, velocity and number of the unit.
 const BYTES_PER_SURFACE_POINT: f64 = 28.0;
@@ -22,15 +23,15 @@ const BYTES_PER_SURFACE_POINT: f64 = 28.0;
 const BYTES_PER_WATER_STATE: f64 = 68.0;
 const BYTES_PER_BOUNDARY_STATE: f64 = 8.0;
 
-/// Size of the files of a complete run [bytes], accurate to some ten per cent. The list of contacts and the report are
-/// not included, because they are small.
+/// Size of the files of a complete run [bytes], with an error of about 10 %. `contacts.csv` and the report are not
+/// included, because they are small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutputSize {
     /// `fluid.vtkhdf`, if the amount of water in `output.fluid_box_m` stays the same as at the start.
     pub fluid: f64,
     /// `units.vtkhdf`, with the surfaces of the units.
     pub units: f64,
-    /// Sum of all CSV tables.
+    /// Sum of the CSV tables.
     pub tables: f64,
     /// `checkpoint.h5`; a run keeps only the last checkpoint.
     pub checkpoint: f64,
@@ -89,7 +90,7 @@ fn field_bytes(field: FluidField) -> f64 {
 mod tests {
     use super::*;
 
-    /// A tank of 2 m x 0.4 m x 0.5 m with a water depth of 0.25 m: 25,000 particles, 1 s.
+    /// Returns a case of 1 s: a tank of 2 m x 0.4 m x 0.5 m with a water depth of 0.25 m, which has 25,000 particles.
     fn case(output: &str) -> Case {
         let text = format!(
             r#"{{ "title": "tank",
@@ -105,7 +106,7 @@ mod tests {
     fn snapshot_size_is_the_sum_of_its_fields() {
         let particles = case("").estimate().fluid;
         assert_eq!(particles, 25_000.0);
-        // 12 snapshots with 9 numbers of 4 bytes per particle; the cells are stored once.
+        // 12 snapshots with 9 numbers of 4 bytes per particle; the cells, 16 bytes per particle, are stored once.
         assert_eq!(OutputSize::estimate(&case("")).fluid, RESERVED + particles * (12.0 * 36.0 + 16.0));
         let some = OutputSize::estimate(&case(r#", "fluid_fields": ["velocity"]"#));
         assert_eq!(some.fluid, RESERVED + particles * (12.0 * 24.0 + 16.0));
@@ -119,7 +120,7 @@ mod tests {
         let water = |output: &str| OutputSize::estimate(&case(output)).fluid - RESERVED;
         let share = |corners: &str| water(&format!(r#", "fluid_box_m": {corners}"#)) / water("");
         assert!((share("[[-1, -1, -1], [9, 9, 9]]") - 1.0).abs() < 1e-12);
-        // This box contains a quarter of the length, half of the width, and the upper 0.1 m of 0.25 m.
+        // This box contains a quarter of the length, half of the width, and the upper 0.1 m of the depth of 0.25 m.
         assert!((share("[[0.5, 0.2, 0.15], [1.0, 0.6, 0.5]]") - 0.25 * 0.5 * 0.4).abs() < 1e-12);
         // The box is above the initial water surface.
         assert_eq!(share("[[0.5, 0.2, 0.3], [1.0, 0.6, 0.5]]"), 0.0);

@@ -10,7 +10,7 @@ use super::OutputError;
 /// Result of the HDF5 library.
 pub(crate) type Hdf5Result<T> = hdf5_metno::Result<T>;
 
-/// Name of the HDF5 attribute with the text: all data of the state that are not arrays.
+/// Name of the HDF5 attribute for the text with all data of the state that are not arrays.
 const TEXT: &str = "state";
 
 /// Writes `text` and the datasets that `fill` creates to a temporary file, syncs this file, and renames it to `path`.

@@ -8,7 +8,7 @@ use super::{Execution, OutputError, write_atomically};
 
 /// Content of `summary.json`: damage and displacements first, then details of the run.
 ///
-/// The summaries of two runs of the same case differ only in the keys of [`Execution`].
+/// If a case is run twice, the two summaries differ only in the keys of [`Execution`].
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Summary {
     /// Title of the case.
@@ -21,9 +21,9 @@ pub struct Summary {
     pub damage_ratio: Option<f64>,
     /// Mean displacement of the units [m]; `None` without units.
     pub mean_displacement_m: Option<f64>,
-    /// Displacement above which a unit counts as damaged [m]; `None` without units.
+    /// Displacement above which a unit counts as damaged (damage distance) [m]; `None` without units.
     pub damage_distance_m: Option<f64>,
-    /// Results of the breakage analysis; `None` if no analysis was made.
+    /// Results of the breakage analysis; `None` if the run was not analysed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub breakage: Option<BreakageSummary>,
     /// The units in order of their numbers.
@@ -32,11 +32,11 @@ pub struct Summary {
     pub wave: Option<WaveSummary>,
     /// Highest surface elevation at each elevation gauge.
     pub gauges: Vec<GaugeSummary>,
-    /// Number and largest values of the contact events in the whole run.
+    /// Numbers and largest values of the contact events in the whole run.
     pub contacts: ContactSummary,
     /// Total energy at the start and the end; `None` if it was not recorded.
     pub energy: Option<EnergySummary>,
-    /// Assumptions listed in the case file: values that no source gives.
+    /// Assumptions listed in the case file: for example, values for which there is no source.
     pub assumptions: Vec<String>,
     /// Warnings from the case file and the run: reasons why the results may be unreliable.
     #[serde(default)]
@@ -68,13 +68,13 @@ pub struct Summary {
     pub obstacles_m: Vec<[[f64; 3]; 2]>,
     /// Number of time steps.
     pub steps: u64,
-    /// Duration of the particle simulation [s].
+    /// Simulated time since the start of the particles [s].
     pub simulated_s: f64,
-    /// Flume time at the start of the particle simulation [s].
+    /// Flume time at the start of the particles [s].
     pub start_s: f64,
     /// Shortest, mean and longest time step.
     pub time_step_s: TimeStepSummary,
-    /// Why the run ended.
+    /// Reason why the run ended.
     pub stopped: Stopped,
     /// Computing time, and the machine that made the run.
     #[serde(flatten)]
@@ -99,14 +99,15 @@ pub struct UnitSummary {
     pub end_m: [f64; 3],
     /// Angle of the rotation from first to last orientation [deg], 0 to 180.
     pub rotation_deg: f64,
-    /// Largest water force after subtraction of the mean still-water force [N]; averages over
+    /// Largest water force, after subtraction of the mean force in still water [N]. The forces are averages over
     /// `output.series_interval_s`.
     pub peak_fluid_force_n: f64,
-    /// Largest resultant contact force from bed and neighbouring units [N]; averages over `output.series_interval_s`.
+    /// Largest resultant contact force from bed, walls and other units [N]. The forces are averages over
+    /// `output.series_interval_s`.
     pub peak_contact_force_n: f64,
-    /// Number of contact events with the bed.
+    /// Number of contact events with bed and walls.
     pub bed_contacts: u64,
-    /// Number of contact events with other units.
+    /// Number of contact events with other units. An event of two units counts for only one of them.
     pub unit_contacts: u64,
 }
 
@@ -144,11 +145,12 @@ pub struct BreakageSummary {
 pub struct WaveSummary {
     /// Kind of the wave, as in the case file (`solitary`, `regular`, `irregular`).
     pub kind: String,
-    /// Theory of the wave (`rayleigh`, `boussinesq`, `third_order`, `stream_function`), spectrum (`jonswap`), or theory
-    /// of the paddle motion (`biesel`: first order; `madsen`: second order).
+    /// Theory of a solitary wave (`rayleigh`, `boussinesq`, `third_order`) or of regular waves (`stream_function`);
+    /// spectrum of irregular waves (`jonswap`); or theory of the paddle motion for regular waves (`biesel`: first
+    /// order, `madsen`: second order).
     pub theory: String,
-    /// Wave height H [m], or significant wave height H_s of irregular waves [m]. For a solitary wave: height above
-    /// still water level at the piston.
+    /// Wave height H [m]; for irregular waves the significant wave height H_s; for a solitary wave the height of the
+    /// crest above still water level at the piston.
     pub height_m: f64,
     /// Period of regular waves, or peak period of irregular waves [s].
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -169,25 +171,25 @@ pub struct GaugeSummary {
     pub crest_flume_m: Option<f64>,
 }
 
-/// Number and largest values of the contact events of all units.
+/// Numbers and largest values of the contact events of all units.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactSummary {
-    /// Number of contact events between a unit and the bed.
+    /// Number of contact events between a unit and bed or walls.
     pub with_bed: u64,
     /// Number of contact events between two units.
     pub between_units: u64,
     /// Largest contact force of all events [N].
     pub peak_force_n: f64,
-    /// Largest normal approach velocity at the start of an event [m/s].
+    /// Largest normal component of the approach velocity at the start of an event [m/s].
     pub peak_normal_velocity_m_s: f64,
 }
 
 /// Total energy of water and units at the start and the end of the run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EnergySummary {
-    /// Total energy at the first output time [J].
+    /// Total energy at the start of the run [J].
     pub start_j: f64,
-    /// Total energy at the last output time [J].
+    /// Total energy at the end of the run [J].
     pub end_j: f64,
 }
 
@@ -258,7 +260,7 @@ impl Summary {
         self.units.iter().filter(|unit| unit.damaged).count()
     }
 
-    /// Returns a copy without computing time and machine. The copies of two runs of the same case are equal.
+    /// Returns a copy without computing time and machine. If a case is run twice, the two copies are equal.
     pub fn without_execution(&self) -> Self {
         Self { execution: Execution::default(), ..self.clone() }
     }
@@ -300,7 +302,7 @@ mod tests {
     #[test]
     fn displacement_is_the_horizontal_distance() {
         let summary = two_units();
-        // 3-4-5 triangle: 0.03 m along and 0.04 m across the flume. The vertical fall of 0.04 m does not count.
+        // Unit 1 moves by 0.03 m along and 0.04 m across the flume: 0.05 m. Its fall by 0.04 m does not count.
         assert!((summary.units[0].displacement_m - 0.05).abs() < 1e-12);
         assert!((summary.units[0].direction_deg - (4.0_f64 / 3.0).atan().to_degrees()).abs() < 1e-9);
         assert_eq!((summary.units[0].damaged, summary.units[1].damaged), (false, true));

@@ -1,4 +1,4 @@
-//! Reading of the CSV files of a run folder.
+//! Reads the CSV files of a run folder.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a CSV file. A last line without line end, left by a killed run, is ignored.
+    /// Reads a CSV file. Ignores a last line without line end, which a killed run may have left.
     ///
     /// # Errors
     /// If the file cannot be read, has no header, or has a field that is not a number.
@@ -26,7 +26,7 @@ impl Table {
     /// Reads a CSV file; returns `None` if the file does not exist.
     ///
     /// # Errors
-    /// The same errors as for [`Table::read`].
+    /// As for [`Table::read`].
     pub fn read_if_present(path: &Path) -> Result<Option<Self>, OutputError> {
         if path.exists() { Self::read(path).map(Some) } else { Ok(None) }
     }

@@ -1,4 +1,4 @@
-//! Surface of an armour unit, for the drawings in the report.
+//! File with the surface of an armour unit, for the drawings in the report.
 
 use std::path::Path;
 

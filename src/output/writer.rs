@@ -1,8 +1,8 @@
 //! Writing of files on a separate thread, so that the computation does not wait for the disk.
 //!
-//! Jobs run in the order in which they are submitted. Snapshots are submitted before their checkpoint. Therefore the
-//! snapshots are in their files when the checkpoint replaces the old one. During a run, only this thread calls HDF5,
-//! because HDF5 serves one thread at a time.
+//! Jobs run in the order in which they are submitted. Snapshots are submitted before the checkpoint that counts them.
+//! Therefore they are in their files when this checkpoint replaces the previous checkpoint. During a run, only this
+//! thread calls HDF5, because HDF5 serves one thread at a time.
 
 use std::{
     panic::resume_unwind,
@@ -12,7 +12,7 @@ use std::{
 
 use super::OutputError;
 
-/// Number of jobs that may wait while one job runs. This limits the memory that the data of the jobs need.
+/// Number of jobs that may wait while one job runs. The limit saves memory, because each job owns a copy of its data.
 const WAITING: usize = 1;
 
 type Job<F> = Box<dyn FnOnce(&mut F) -> Result<(), OutputError> + Send>;

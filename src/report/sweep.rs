@@ -18,8 +18,8 @@ use crate::{
 const SIZE: [f64; 2] = [720.0, 420.0];
 
 /// Writes `sweep.svg` and returns its path; `None` if there is nothing to show. The chart shows the mean displacement
-/// against the first key with numeric values. If the keys vary one at a time, the chart shows the change of the mean
-/// displacement from the base case for each value.
+/// of the units against the first key with numeric values. If the keys vary one at a time, the chart shows for each
+/// value how much the mean displacement differs from the base case.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -101,7 +101,7 @@ mod tests {
             let summary = Summary { mean_displacement_m: Some(mean), ..Summary::default() };
             Outcome::Finished(Box::new(summary))
         };
-        // All further runs of the sweep are not finished.
+        // The second run has no result. The list ends after the third run, so the chart ignores all further runs.
         let outcomes: Vec<Outcome> = [moved(0.25), Outcome::Missing, moved(0.28)].into();
         let chart = tornado(&sweep, &outcomes).unwrap();
         let [lever] = &chart.levers[..] else { panic!("{:?}", chart.levers) };

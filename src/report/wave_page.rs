@@ -26,7 +26,7 @@ pub fn write_wave_page(
 ) -> Result<PathBuf, OutputError> {
     let path = dir.join("wave.html");
     let lead = format!(
-        "Flume model with {} layers; particle wavemaker at x = {} m, starting at flume time {} s",
+        "Flume model with {} layers; wavemaker of the particle domain at x = {} m, starting at flume time {} s",
         record.layers,
         short(piston.rest_x_m(), 3),
         short(piston.start_s(), 2)
@@ -62,7 +62,7 @@ fn gauge_chart(case: &Case, record: &FlumeRecord, beside: &[SurfaceSeries]) -> L
         })
         .collect();
     lines.extend(beside.iter().enumerate().map(|(colour, series)| Line {
-        name: if colour == 0 { "dashed: other program".to_owned() } else { String::new() },
+        name: if colour == 0 { "dashed lines: other program".to_owned() } else { String::new() },
         points: series.points().map(|[t, z]| [t, z - case.flume.still_water_level]).collect(),
         colour,
         dashed: true,
@@ -71,8 +71,8 @@ fn gauge_chart(case: &Case, record: &FlumeRecord, beside: &[SurfaceSeries]) -> L
     chart("Surface elevation at the gauges", "flume time [s]", "elevation \u{03b7} [m]", lines)
 }
 
-/// Chart of the surface in the recorded part of the flume: at the time of the highest crest, and 1 s and 2 s before and
-/// after.
+/// Chart of the surface elevation in the recorded part of the flume at five times: the time of the highest crest, and
+/// 1 s and 2 s before and after this time.
 fn profile_chart(record: &FlumeRecord) -> LineChart {
     let crest = |t: f64| record.window_x_m.iter().map(|&x| record.elevation(x, t)).fold(f64::MIN, f64::max);
     let highest = record.times_s().iter().copied().max_by(|a, b| crest(*a).total_cmp(&crest(*b))).unwrap_or(0.0);
@@ -86,7 +86,7 @@ fn profile_chart(record: &FlumeRecord) -> LineChart {
     chart("Surface elevation along the flume", "x [m]", "elevation \u{03b7} [m]", lines.collect())
 }
 
-/// Chart of the displacement of three rows of the multi-layer piston: the first, a middle and the last row.
+/// Chart of the displacement of three rows of the multi-layer piston: the lowest, a middle and the highest row.
 fn piston_chart(piston: &MlPiston) -> LineChart {
     let heights = piston.row_heights_m();
     let samples = 200;

@@ -3,7 +3,8 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// Largest number of corners plus edges of a polyhedron. Their feature numbers start at 0 and are less than [`WHOLE_PART`].
+/// Largest number of corners plus edges of a polyhedron. Their feature numbers start at 0 and are less than
+/// [`WHOLE_PART`].
 pub const MAX_FEATURES: usize = WHOLE_PART as usize - 1;
 /// Feature number of a whole part. The corners of a polyhedron have the numbers from 0; its edges follow.
 pub const WHOLE_PART: u16 = 1023;
@@ -16,7 +17,8 @@ pub enum Feature {
     /// A part of another body, or of an image of the same body, shifted by `image` flume widths. `part` is 1024 times
     /// the part number plus the feature number (a corner, an edge, or 1023 for the whole part).
     Unit { body: u32, image: i32, part: u16 },
-    /// The bed profile: `place` is 2 k for strip k, and 2 k + 1 for the convex corner after strip k.
+    /// The bed profile: `place` is 2 k for strip k (a plane segment, counted from 0 at the seaward end), and 2 k + 1
+    /// for the convex corner after strip k.
     Ground { place: u32, end: u16 },
     /// A triangle surface: `place` is the number of the triangle, ridge or corner.
     Terrain { place: u32, end: u16 },
@@ -48,7 +50,8 @@ pub struct ContactPoint {
     pub overlap: f64,
     /// Shift of the partner to its periodic image [m].
     pub shift: DVec3,
-    /// Nearest point of the partner's core, in the partner's body axes [m]; on the ground or a wall, the foot point.
+    /// Nearest point of the partner's core, in the partner's body axes [m]; on the ground or a wall, the foot of
+    /// the perpendicular.
     pub core: DVec3,
 }
 
@@ -59,7 +62,7 @@ pub struct Substep {
     pub dt: f64,
     /// Time at the end of the substep [s].
     pub time: f64,
-    /// Longest possible next substep [s]. Contacts that may start within this time also limit the substep length.
+    /// Longest possible next substep [s]. Contacts that can start within this time also limit the substep length.
     pub horizon: f64,
 }
 
@@ -70,7 +73,7 @@ pub struct Contact {
     pub key: ContactKey,
     /// Contact normal at the last evaluation.
     pub normal: DVec3,
-    /// Displacement d_t of the tangential spring [m].
+    /// Elongation of the tangential spring [m].
     pub spring: DVec3,
     /// Rotation of the rolling spring [rad].
     pub rolling_spring: DVec3,

@@ -125,7 +125,7 @@ impl Laws {
         for (old, record) in before.iter().zip(old_records).filter_map(|(old, record)| Some((old, record?))) {
             energy.friction += old.elastic[1] + old.elastic[2];
             if let Feature::Terrain { .. } = old.key.feature {
-                // A part can leave a ridge before its overlap is zero: the stored energy is lost.
+                // A part can leave a ridge before its overlap is zero. The stored energy then counts as dissipated.
                 energy.damping += old.elastic[0];
             }
             records.end(record, old.force, substep);
@@ -146,7 +146,8 @@ impl Laws {
         let expected = point.overlap.max(law.impact_overlap(closing));
         let s_n = law.normal_stiffness(expected);
         let stiffness_at = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
-        // Between two bodies, twice the stiffness of their spring gives a bound of the frequency (Gershgorin).
+        // For a contact of two bodies, twice the stiffness gives an upper bound of the frequency (Gershgorin's
+        // theorem).
         stiffness[pair.body] += if pair.partner.is_some() { 2.0 } else { 1.0 } * stiffness_at(pair.arms[0]);
         if let Some(b) = pair.partner {
             stiffness[b] += 2.0 * stiffness_at(pair.arms[1]);

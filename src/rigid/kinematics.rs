@@ -30,7 +30,7 @@ pub struct Motion<'a> {
     pub placements: Placements<'a>,
     /// Velocities at the end of the substep.
     pub now: Velocities<'a>,
-    /// Mean velocities over the substep, for the stretch of the springs and the work of the forces.
+    /// Mean velocities over the substep, for the elongation of the springs and the work of the forces.
     pub mean: Velocities<'a>,
     /// The substep.
     pub substep: Substep,

@@ -1,11 +1,11 @@
 //! Motion of a rigid body between two evaluations of its forces.
 //!
-//! The state variable is the angular momentum L in world axes. The rotation follows
-//! dq/dt = (1/2) omega q, omega = R I^-1 R^T L,
-//! integrated by the classical fourth-order Runge-Kutta method. A body without torque therefore conserves L exactly.
-//! rapier's integrator has an explicit gyroscopic term and conserves only the magnitude of L. For a free asymmetric
-//! body with inertia (1, 2, 3) at 10 rad/s and steps of 0.1 ms, the direction of L drifts by 1e-5 of its length within
-//! a second (see the test). rapier therefore serves as a reference in the test only.
+//! The state variable is the angular momentum L in world axes, so a body without torque conserves L exactly. The
+//! rotation q follows dq/dt = (1/2) omega q with omega = R I^-1 R^T L, with the rotation matrix R and the inertia
+//! tensor I. It is integrated by the classical fourth-order Runge-Kutta method. The integrator of the library rapier
+//! has an explicit gyroscopic term and conserves only the magnitude of L. For a free asymmetric body with inertia (1,
+//! 2, 3) at 10 rad/s and steps of 0.1 ms, the direction of L drifts by 1e-5 rad within a second (see the test). rapier
+//! therefore serves as a reference in the test only.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -24,7 +24,7 @@ pub fn angular_velocity(rotation: DQuat, inverse_inertia: &DMat3, angular_moment
 /// Rotation after a time `dt` [s] at constant angular momentum.
 pub fn rotated(rotation: DQuat, inverse_inertia: &DMat3, angular_momentum: DVec3, dt: f64) -> DQuat {
     let rate = |q: DQuat| {
-        // The intermediate stages are not exactly unit quaternions.
+        // Normalise, because the quaternions of the intermediate stages do not have exactly unit length.
         let w = angular_velocity(q.normalize(), inverse_inertia, angular_momentum);
         DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * q * 0.5
     };
@@ -64,19 +64,21 @@ mod tests {
             }
         }
         let back = angular_momentum(q, &inertia, angular_velocity(q, &inverse, momentum));
-        // 1e-12 allows for the rounding errors of two rotations.
+        // Limit 1e-12: the rounding errors of two rotations.
         assert!((back - momentum).length() / momentum.length() < 1e-12);
-        // Error of the fourth-order method over 200 rad with 0.01 rad per step.
+        // Limit 1e-7: the error of the fourth-order method over 200 rad with 0.01 rad per step.
         assert!((energy(q) / start - 1.0).abs() < 1e-7, "{}", energy(q) / start - 1.0);
         let periods: Vec<f64> = flips.windows(2).map(|w| w[1] - w[0]).collect();
-        // Half of the period of Euler's equations is 2 K(k) / p. 3e-3: the test checks for a flip only every 1 ms.
+        // The time between two flips is half of the period of Euler's equations, 2 K(k) / p. Limit 3e-3: the test
+        // checks for a flip only every 1 ms.
         let expected = flip_time(SPIN);
         assert!(periods.iter().all(|p| (p / expected - 1.0).abs() < 3e-3), "{periods:?} {expected}");
     }
 
     /// Time between two flips of a body with inertia (1, 2, 3) rotating about its middle axis: 2 K(k)/p with
     /// p^2 = (I_3 - I_2)(L^2 - 2 E I_1)/(I_1 I_2 I_3), k^2 = (I_2 - I_1)(2 E I_3 - L^2)/((I_3 - I_2)(L^2 - 2 E I_1))
-    /// for L^2 > 2 E I_2; otherwise indices 1 and 3 are swapped. K is computed by the arithmetic-geometric mean.
+    /// for L^2 > 2 E I_2, with the kinetic energy E; otherwise indices 1 and 3 are swapped. K is computed by the
+    /// arithmetic-geometric mean.
     fn flip_time(w: DVec3) -> f64 {
         let i = DVec3::new(1.0, 2.0, 3.0);
         let (two_e, l2) = ((i * w * w).element_sum(), (i * i * w * w).element_sum());

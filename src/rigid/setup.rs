@@ -13,7 +13,7 @@ use crate::geometry::convex::convex_part::ConvexPart;
 use crate::geometry::profile::Profile;
 use crate::geometry::terrain::Terrain;
 
-/// Largest number of convex parts of a body, because part number and feature number share 16 bits.
+/// Largest number of convex parts of a body; it is limited because part number and feature number share 16 bits.
 pub const MAX_PARTS: usize = 63;
 
 /// Shape and mass, equal for all bodies. Body axes have their origin at the centre of mass.
@@ -168,7 +168,7 @@ impl RigidSetup {
         }
         for (index, body) in self.bodies.iter().enumerate() {
             let length = body.rotation.length();
-            // 1e-6 accepts quaternions that were written with seven digits.
+            // The tolerance 1e-6 accepts quaternions that were written with seven digits.
             if (length - 1.0).abs() > 1e-6 || length.is_nan() {
                 return reject(&format!("the length of the rotation quaternion of unit {}", index + 1), length, "1");
             }

@@ -315,7 +315,7 @@ impl RigidWorld {
         let reach = self.surfaces.reach();
         for body in 0..self.position.len() {
             self.path[body] += PATH_SAFETY * h * (linear[body].length() + angular[body].length() * reach);
-            // The next substep length depends on all contacts that may start within the horizon at twice this speed.
+            // The next substep length depends on all contacts that can start within the horizon at twice this speed.
             let speed = self.velocity[body].length() + self.angular_velocity[body].length() * reach;
             self.margin[body] = 2.0 * speed * horizon;
         }

@@ -1,4 +1,4 @@
-//! The computation that breakwater runs for each kind of input file.
+//! The computations: one folder for each kind of run.
 //!
 //! | folder | run |
 //! | --- | --- |

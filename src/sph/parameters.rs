@@ -10,9 +10,9 @@ use super::terms::wall_slip::WallSlip;
 /// Method for the density of boundary particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryCondition {
-    /// DBC: from the continuity equation (Crespo et al. 2007).
+    /// DBC: the density follows from the continuity equation (Crespo et al. 2007).
     Dynamic,
-    /// mDBC: from ghost nodes in the water (English et al. 2022).
+    /// mDBC: the density is extrapolated from ghost nodes in the water (English et al. 2022).
     ModifiedDynamic,
 }
 
@@ -25,15 +25,15 @@ pub struct Parameters {
     pub kernel: Wendland,
     /// Equation of state.
     pub tait: Tait,
-    /// Viscosity.
+    /// Viscosity model.
     pub viscosity: Viscosity,
-    /// Density diffusion.
+    /// Form and constants of the density diffusion.
     pub diffusion: Diffusion,
-    /// Gravitational acceleration, downwards [m/s2].
+    /// Magnitude of the gravitational acceleration, which acts downwards [m/s2].
     pub gravity: f64,
-    /// Courant number [-].
+    /// Courant number C of the time step [-].
     pub cfl: f64,
-    /// Boundary condition.
+    /// Method for the density of boundary particles.
     pub boundary: BoundaryCondition,
     /// Wall slip condition under mDBC.
     pub slip: WallSlip,

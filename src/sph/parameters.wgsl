@@ -1,4 +1,4 @@
-// Constants of the scheme (parameters.rs), and code common to all stages.
+// Constants of the scheme (parameters.rs), and code that all shaders use.
 
 struct Parameters {
     // Number of bins along x, y, z.
@@ -13,42 +13,44 @@ struct Parameters {
     walls: u32,
     // Width of a periodic domain [m].
     width: f32,
-    // Smoothing length [m].
+    // Smoothing length h [m].
     h: f32,
+    // 1 / (2 h) [1/m].
     inv_2h: f32,
-    // alpha_D [1/m3].
+    // Constant factor alpha_D of the kernel W [1/m3].
     kernel_scale: f32,
-    // -5 alpha_D / h^2 [1/m5].
+    // Constant factor of G, where grad_a W_ab = G r_ab: -5 alpha_D / h^2 [1/m5].
     gradient_scale: f32,
-    // rho0 [kg/m3].
+    // Reference density rho0 [kg/m3].
     rho0: f32,
-    // alpha of equation 3 [-].
+    // Coefficient alpha of the artificial viscosity, equation 3 [-].
     alpha: f32,
-    // -2 delta h c0 [m2/s].
+    // Factor of the density diffusion, equation 4: -2 delta h c0 [m2/s].
     diffusion: f32,
-    // rho0 g / c0^2 [kg/m4]; zero if the total density is diffused.
+    // First coefficient of rho^H in equation 5: rho0 g / c0^2 [kg/m4]; zero if the total density is diffused.
     hydrostatic: f32,
-    // (gamma - 1) g / (2 c0^2) [1/m].
+    // Second coefficient of rho^H: (gamma - 1) g / (2 c0^2) [1/m].
     curvature: f32,
-    // g [m/s2].
+    // Gravitational acceleration g [m/s2].
     gravity: f32,
-    // -rho0 g / c0^2 [kg/m4], the hydrostatic gradient with which mDBC extrapolates densities.
+    // Vertical density gradient at hydrostatic pressure, -rho0 g / c0^2 [kg/m4]; mDBC extrapolates densities with it.
     density_slope: f32,
     padding: f32,
-    // Limits between which the trust in a fitted gradient changes, for centroid and spread of the water (mdbc.rs).
+    // Limits between which the trust in a fitted gradient changes: centroid of the water around a ghost node [h], and
+    // spread of this water [h2] (mdbc.rs).
     centroid_limits: vec2<f32>,
     spread_limits: vec2<f32>,
-    // Smallest scaled determinant for which a gradient is fitted [-].
+    // Smallest determinant, divided by (sum of W V)^4, for which mDBC fits a gradient [-].
     least_determinant: f32,
     // Sum of W V below which a ghost node is dry [-].
     dry: f32,
-    // Box that no particle may leave, relative to the low corner of the grid [m].
+    // Corners of the box in which all particles must stay, relative to the low corner of the grid [m].
     bounds_low: vec3<f32>,
     padding_low: f32,
     bounds_high: vec3<f32>,
     padding_high: f32,
-    // Coefficients of binomial series in (rho - rho0) / rho0: of p from the first power on [Pa], of c from the zeroth
-    // [m/s].
+    // Coefficients of two binomial series in (rho - rho0) / rho0: pressure, powers 1 to 8 [Pa]; speed of sound, powers
+    // 0 to 7 [m/s].
     pressure: array<vec4<f32>, 2>,
     sound: array<vec4<f32>, 2>,
 }
@@ -63,7 +65,7 @@ struct Step {
 
 // Data of a particle that its neighbours need (records.rs).
 struct Record {
-    // Bin along x; offset from the low end of this bin, y and z relative to the middle of the grid [m].
+    // Index of the bin along x; then x from the low end of this bin, and y and z from the middle of the grid [m].
     place: vec4<f32>,
     // Velocity [m/s] and volume [m3].
     motion: vec4<f32>,
@@ -92,7 +94,7 @@ fn bin_of_cell(cell: vec3<i32>) -> u32 {
     return u32((c.z * parameters.count.y + c.y) * parameters.count.x + c.x);
 }
 
-// Returns the position in the form of Record.place, from a cell and the offset in this cell [m].
+// Returns a position in the form of Record.place, from a bin index (`cell`) and the offset in this bin [m].
 fn split(cell: vec3<i32>, offset: vec3<f32>) -> vec4<f32> {
     let across = (vec2<f32>(cell.yz) - 0.5 * vec2<f32>(parameters.count.yz)) * parameters.size.yz + offset.yz;
     return vec4<f32>(f32(cell.x), offset.x, across);

@@ -2,12 +2,12 @@
 
 use serde_json::{Map, Value};
 
-/// Returns the last part of a key's path: `coefficient`.
+/// Returns the last part of a key's path, for example `coefficient`.
 pub fn short(key: &str) -> &str {
     key.rsplit('.').next().unwrap_or(key)
 }
 
-/// Returns the last two parts of a key's path: `mound.crest_width_m`.
+/// Returns the last two parts of a key's path, for example `mound.crest_width_m`.
 pub fn brief(key: &str) -> &str {
     key.rmatch_indices('.').nth(1).map_or(key, |(dot, _)| &key[dot + 1..])
 }

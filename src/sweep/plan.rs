@@ -85,7 +85,7 @@ pub struct Sweep {
     pub combine: Combine,
     /// The runs. With [`Combine::All`], the last key varies fastest.
     pub members: Vec<Member>,
-    /// The common start: the run from whose checkpoint all other runs start, if any.
+    /// The common start, if any: a run whose checkpoint is the start of all other runs.
     pub start: Option<Member>,
 }
 
@@ -238,8 +238,8 @@ fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
     values
 }
 
-/// Adds the changed keys to the assumptions of a run. Reason: reports print the assumptions, and those of the base case
-/// describe only the values of the base case.
+/// Adds the changed keys to the assumptions of a run. Reports print these assumptions; the assumptions of the base case
+/// are true only for the values of the base case.
 fn note_differences(run: &mut Value, given: &Value, keys: &[&str]) {
     let differs = |key: &&str| {
         let (now, before) = (get(run, key), get(given, key));

@@ -25,7 +25,7 @@ pub struct Work<'a> {
     pub dir: &'a Path,
     /// Threads per run.
     pub threads: usize,
-    /// Device of each run, as in `--device`.
+    /// Device of each run, as in the option `--device`.
     pub device: &'a str,
 }
 

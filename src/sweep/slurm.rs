@@ -36,7 +36,7 @@ pub fn write_script(
         .chain(command.get_args())
         .map(|word| quoted(&word.to_string_lossy()))
         .collect();
-    // Slurm sets the number of the run in this variable.
+    // Slurm sets this variable to the number of the run.
     let line = words.join(" ").replacen("--member 0", "--member \"$SLURM_ARRAY_TASK_ID\"", 1);
     let options: String = options.iter().map(|option| format!("#SBATCH {option}\n")).collect();
     let script = format!(
@@ -77,7 +77,7 @@ pub fn submit(script: &Path) -> io::Result<String> {
 pub fn wait(job: &str, mut report: impl FnMut(usize)) -> io::Result<()> {
     loop {
         let output = Command::new("squeue").args(["--noheader", "--array", "--job", job]).output()?;
-        // After a job has ended, `squeue` may print an error and no tasks.
+        // After a job has ended, `squeue` can print an error message and no tasks; this counts as no tasks.
         let tasks = String::from_utf8_lossy(&output.stdout).lines().filter(|line| !line.trim().is_empty()).count();
         if tasks == 0 {
             return Ok(());

@@ -8,7 +8,7 @@ use super::tanks::{GRAVITY, run_until, simulation};
 const DEPTH: f64 = 0.3;
 const LENGTH: f64 = 4.0;
 
-/// Returns the case of a tank with a piston that generates a solitary wave, and a wall.
+/// Returns the case of a tank between a piston that generates a solitary wave and a wall.
 fn tank(dp: f64, height: f64, absorbs: bool) -> Value {
     let mut wavemaker = json!({ "kind": "piston" });
     if absorbs {
@@ -35,8 +35,8 @@ fn crests(dp: f64, height: f64, absorbs: bool) -> [f64; 2] {
     let outskirt = (0.75 * height / (DEPTH * DEPTH * (DEPTH + height))).sqrt();
     let leaves = (3.8 + height / DEPTH) / (outskirt * celerity);
     let [first, reflected, rereflected] = [0.5, 1.5, 2.5].map(|lengths| leaves + lengths * LENGTH / celerity);
-    // The readings stop after the first passage of the crest and start again before the third, when the wave is far
-    // from the middle.
+    // The readings stop after the first passage of the crest and start again before the third passage. At both times,
+    // the wave is far from the middle.
     let (until, from) = (0.5 * (first + reflected), reflected + 0.75 * (rereflected - reflected));
     let mut crests = [0.0_f64; 2];
     run_until(&mut tank, rereflected + 0.2 * LENGTH / celerity, |now| {
@@ -66,7 +66,8 @@ fn compare(dp: f64, height: f64) -> [f64; 2] {
 #[test]
 fn an_absorbing_piston_does_not_reflect_the_wave_coarse() {
     let [without, with] = compare(0.025, 0.09);
-    // Target: 10 % after one reflection; reached: 4.5 %, a sixth of a particle spacing.
+    // Limit 10 % of the incident crest after reflection by the absorbing piston. Reached: 4.5 %, a sixth of a particle
+    // spacing.
     assert!(without > 0.5 && with < 0.1);
 }
 

@@ -23,7 +23,7 @@ use glam::DVec3;
 use super::lattice::{gradient_factor, lattice_sum, points};
 use super::tanks::{RHO0, parameters};
 
-/// h / dp of Mitsui et al. (2023) [-].
+/// Smoothing length divided by particle spacing, h / dp, as in Mitsui et al. (2023) [-].
 pub const USUAL: f64 = 1.2 * 1.732_050_807_568_877_2;
 
 /// Largest shift of jittered points along each axis, as a share of dp [-].
@@ -97,7 +97,7 @@ pub fn rates_of_block(water: Water) -> (Water, Vec<Rate>) {
     rates(ideal(DP, None), water, DVec3::splat(-0.15), DVec3::splat(0.15))
 }
 
-/// Returns the gradients that some schemes use, and the indices of the particles in the order of the gradients.
+/// Returns the gradients that the solver computes, and the indices of the particles in the order of the gradients.
 pub fn gradients(parameters: Parameters, water: &Water, low: DVec3, high: DVec3) -> (Gradients, Vec<usize>) {
     let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
     let mut bins = Bins::default();

@@ -57,7 +57,7 @@ fn a_rerun_impact_keeps_momentum_energy_and_impulse() {
     assert!((momentum - expected).length() < 1e-6 * expected.length(), "{momentum} {expected}");
     let (_, bodies) = start.step_with_body_energies().unwrap();
     let energy = 0.5 * 0.3 * before.velocity.length_squared() * 50f64.powi(4);
-    // Target: 1e-6. The energy is computed half a time step later, and gravity acts during this time.
+    // Limit 1e-6, plus the work of gravity: the energy is computed half a time step later.
     let fallen = expected.z.abs() * 9.81 * start.dt;
     assert!((bodies[0].kinetic - energy).abs() < 1e-6 * energy + fallen, "{} {energy}", bodies[0].kinetic);
 
@@ -68,11 +68,12 @@ fn a_rerun_impact_keeps_momentum_energy_and_impulse() {
     let [reenacted, by_loads] =
         [RerunMethod::ReEnact, RerunMethod::LoadHistory].map(|way| impact_by(&breakage, way).found[0].impulse_n_s[2]);
     println!(
-        "impulse over the impulse of the rigid unit: re-enacted {:.4}, by load history {:.4}",
+        "impulse divided by the impulse of the rigid unit: re-enacted {:.4}, by load history {:.4}",
         (reenacted + weight) / rigid,
         (by_loads + weight) / rigid
     );
-    // Target: 10 %. The load history keeps the recorded impulse, except for the ramps between the rows of the history.
+    // Limit 10 % for the re-enacted collision, 0.1 % for the load history. The load history keeps the recorded impulse,
+    // except for the ramps between its rows.
     assert!(((reenacted + weight) / rigid - 1.0).abs() < 0.1);
     assert!(((by_loads + weight) / rigid - 1.0).abs() < 1e-3);
 }
@@ -95,9 +96,10 @@ fn stress_grows_with_the_scale_by_the_law_of_hertz() {
     let [one, fifty] = [1.0, 50.0].map(stress);
     let exponent = (fifty / one).ln() / 50f64.ln();
     println!("scale 50: {:.2} MPa, scale 1: {:.2} MPa, exponent {exponent:.3}", fifty * 1e-6, one * 1e-6);
-    // By Hertz the force is proportional to R^(1/5) m^(3/5) v^(6/5), with v proportional to the square root of the
-    // scale, so the exponent of the stress is 0.6. 0.05 is allowed, because the contact is one or two elements wide.
-    // For a bar, with the stress sqrt(E rho) v, the exponent is 0.5.
+    // By Hertz's law, the force is proportional to R^(1/5) m^(3/5) v^(6/5). The radius R is proportional to the scale,
+    // the mass m to its cube, the velocity v to its square root. The force then has the exponent 2.6; the stress, which
+    // is force per area, has 0.6. Limit 0.05, because the contact is one or two elements wide. The stress in a bar that
+    // hits a wall, sqrt(E rho) v, has the exponent 0.5.
     assert!((exponent - 0.6).abs() < 0.05);
 }
 
@@ -123,5 +125,6 @@ fn the_prototype_cracks_and_the_model_does_not() {
     }
 }
 
-/// Drop height of the model [m]. The prototype falls by 0.2 m, and its foot cracks 4.2 ms after the start.
+/// Drop height of the model [m]. The prototype falls by 0.2 m, and its foot cracks 4.2 ms after the start of the
+/// fracture run.
 const DROP: f64 = 0.004;

@@ -15,9 +15,9 @@ use super::blocks::{DP, USUAL, block, gradients, ideal, inside, lattice_error_of
 use super::lattice::{gradient_factor, lattice_sum, points, transform, value};
 use super::tanks::RHO0;
 
-/// Density diffusion damps a wave at the rate 2 delta h c0 sum V |G| (1 - cos k.r), which is delta h c0 k^2 for long
-/// waves. The integral of |G| is 7 / (2 h^2), so the rate is at most 7 delta c0 / h. This rate limits delta in case
-/// files.
+/// Density diffusion damps a density wave with the wave number k at the rate 2 delta h c0 sum V |G| (1 - cos k.r),
+/// where grad W = G r. For long waves, this rate is delta h c0 k^2. The integral of |G| is 7 / (2 h^2), so the rate is
+/// at most 7 delta c0 / h. This largest rate limits delta in case files.
 #[test]
 fn density_diffusion_damps_waves_at_the_rate_of_theory() {
     let mut parameters = ideal(DP, None);
@@ -33,7 +33,7 @@ fn density_diffusion_damps_waves_at_the_rate_of_theory() {
             let excess = water.density[i] - RHO0;
             [product - excess * f64::from(rate.density), square + excess * excess]
         });
-        // In units of 2 delta c0 / h.
+        // The rate, divided by 2 delta c0 / h.
         let found = sums[0] / sums[1] * h / (2.0 * delta * c0);
         let term = |r: DVec3| -gradient_factor(&kernel, r.length()) * (1.0 - wave.dot(r).cos());
         let theory = USUAL * USUAL * lattice_sum(&kernel, term);
@@ -41,7 +41,8 @@ fn density_diffusion_damps_waves_at_the_rate_of_theory() {
         println!("diffusion of k dp = {wave:.2}: {found:.4}, theory {theory:.4}, of long waves {long:.4}");
         // Limit 1e-5: the excess over rho0 is stored in single precision, with differences of 1 kg/m3.
         assert!((found / theory - 1.0).abs() < 1e-5, "{wave}");
-        // The moments of |G| give 1 - (h k)^2 / 15 + (h k)^4 / 371. 1e-3 is allowed, because the lattice error is 4e-4.
+        // Divided by the rate of long waves, the moments of |G| give 1 - (h k)^2 / 15 + (h k)^4 / 371. The limit adds
+        // 1e-3, because the lattice error is 4e-4.
         let series = 1.0 - 2.0 / 15.0 * long;
         assert!(long > 1.0 || (found / long - series).abs() < 0.015 * long * long + 1e-3, "{wave}");
         assert!(found < 3.5, "{wave}");
@@ -72,9 +73,9 @@ fn operators_converge_with_second_order() {
             -lattice_error,
             2.0 / 15.0 * (h * wave_number).powi(2)
         );
-        // Limit 2e-5: single precision, 6e-8 of 1000 Pa, compared with pressure gradients of k 1000 Pa over 2h. The
-        // second term: the lattice error of a wave differs from the lattice error of a linear field by the share (h
-        // k)^2.
+        // Limit 2e-5: pressures of 1000 Pa have a rounding error of 6e-8 in single precision, but differ by only 2 h k
+        // 1000 Pa within the kernel support. The second term of the limit: the lattice error of a wave differs from
+        // that of a linear field by the share (h k)^2.
         let allowed = 2e-5 + 2.0 * (h * wave_number).powi(2) * lattice_error;
         assert!((found[0] - (1.0 - smoothed - lattice_error)).abs() < allowed, "{cells}");
         assert!((found[1] - (1.0 - smoothed - lattice_error)).abs() < allowed, "{cells}");
@@ -93,8 +94,8 @@ fn operators_converge_with_second_order() {
     assert!(((errors[2][2] / errors[3][2]).log2() - 2.0).abs() < 0.02);
 }
 
-/// Returns 1 - found / exact by least squares for the pressure gradient, the divergence of the velocity and the
-/// renormalised density gradient of a wave in x and z on a slab.
+/// Returns 1 - found / exact for the pressure gradient, the divergence of the velocity and the renormalised density
+/// gradient of a wave in x and z on a slab. The ratio found / exact is a least-squares fit over all particles.
 fn wave_on_a_lattice(dp: f64, length: f64, amplitude: f64) -> [f64; 3] {
     let (k, margin, rows_across) = (2.0 * PI / length, 6, 10);
     let cells = (length / dp).round() as usize;
@@ -103,7 +104,7 @@ fn wave_on_a_lattice(dp: f64, length: f64, amplitude: f64) -> [f64; 3] {
     let tait = parameters.tait;
     let wave = |p: DVec3| (k * p.x).sin() * (k * p.z).cos();
     let slope = |p: DVec3| k * DVec3::new((k * p.x).cos() * (k * p.z).cos(), 0.0, -(k * p.x).sin() * (k * p.z).sin());
-    // The velocity is the gradient of the wave over k, so its divergence is -2 k^2 wave / k.
+    // The velocity is the gradient of the wave divided by k, so its divergence is -2 k^2 wave / k.
     let flow = |p: DVec3| slope(p) / k;
     let corner = DVec3::new(-(margin as f64) * dp, 0.5 * dp, -(margin as f64) * dp);
     let count = [cells + 2 * margin, rows_across, cells + 2 * margin];
@@ -114,7 +115,7 @@ fn wave_on_a_lattice(dp: f64, length: f64, amplitude: f64) -> [f64; 3] {
     let (gradients, order) = gradients(with_gradients, &water, low, high);
     let (sorted, rates) = rates(parameters, water, low, high);
     let one_wave = -1e-9..length - 1e-9;
-    // Sums of found times exact and of exact squared.
+    // Sums of the products found times exact, and of the squares of exact.
     let mut sums = [[0.0_f64; 2]; 3];
     let mut add = |kind: usize, found: DVec3, exact: DVec3| {
         sums[kind][0] += found.dot(exact);

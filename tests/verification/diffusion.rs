@@ -1,4 +1,4 @@
-//! Particles on which density diffusion acts, and the effect of density diffusion on a linear density field.
+//! On which particles density diffusion acts, and how it changes a linear density field.
 
 use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::{
@@ -36,7 +36,8 @@ fn density_rates(boundary: BoundaryCondition, diffusion: DensityDiffusion) -> Ve
     water.position.into_iter().zip(rates.iter().map(|rate| rate.density)).collect()
 }
 
-/// Returns the shares of particles on which diffusion acts, within and beyond the reach of the wall [-].
+/// Returns the share of particles on which diffusion acts [-]: first within the kernel support of the wall particles,
+/// then beyond.
 fn diffused(boundary: BoundaryCondition) -> [f64; 2] {
     let with_diffusion = density_rates(boundary, DensityDiffusion::MolteniColagrossi);
     let without_diffusion = density_rates(boundary, DensityDiffusion::None);
@@ -45,8 +46,8 @@ fn diffused(boundary: BoundaryCondition) -> [f64; 2] {
         let pairs = || with_diffusion.iter().zip(&without_diffusion).filter(|((p, _), _)| is_included(p.z - WALL));
         pairs().filter(|((_, a), (_, b))| a != b).count() as f64 / pairs().count() as f64
     };
-    // Particles within half a particle spacing of the limit of the wall's reach are excluded, because there the jitter
-    // decides if a particle is in reach.
+    // Particles within half a particle spacing of the limit of the support are excluded, because there the jitter
+    // decides if a wall particle is in their support.
     [share_where(&|height| height < support - 0.5 * DP), share_where(&|height| height > support + 0.5 * DP)]
 }
 
@@ -84,10 +85,11 @@ fn diffusion_of_antuono_does_not_change_a_linear_density() {
     let [whole, rest] = [DensityDiffusion::MolteniColagrossi, DensityDiffusion::Antuono]
         .map(|diffusion| largest_rate(diffusion, 20.0, 0.0));
     println!("linear density: rate {whole:.2e} with Molteni & Colagrossi, {rest:.2e} with Antuono et al.");
-    // Reached: 1.5e-6, from single precision with some 280 neighbours.
+    // Reached: 1.5e-6, the rounding of single precision summed over some 280 neighbours.
     assert!(rest < 1e-5 * whole);
     let ripples = largest_rate(DensityDiffusion::Antuono, 0.0, 1.0);
     println!("ripples: rate {ripples:.2e} with Antuono et al.");
-    // The diffusion does act on ripples; renormalised gradients explain only part of a wave of nine particle spacings.
+    // The diffusion does act on ripples: the gradients describe only part of the density differences in a wave that is
+    // nine particle spacings long.
     assert!(ripples > 0.1 * largest_rate(DensityDiffusion::MolteniColagrossi, 0.0, 1.0));
 }

@@ -49,7 +49,7 @@ fn an_interrupted_dry_test_resumes_with_the_same_bits() {
         std::fs::create_dir(dir).unwrap();
         run(dry_case(&case), dir, &Control::quiet()).unwrap();
     }
-    // The last checkpoint is at 0.6 s; resuming repeats the time after it.
+    // The last checkpoint is at 0.6 s; `resume` repeats the run from there to 0.7 s.
     breakwater::simulation::dry_test::run::resume(dry_case(&case), &dirs[1], &Control::quiet()).unwrap();
     for file in ["units.csv", "energy.csv", "contacts.csv"] {
         let [whole, interrupted] = dirs.each_ref().map(|dir| std::fs::read(dir.join(file)).unwrap());
@@ -85,7 +85,7 @@ fn a_placed_layer_rests_and_can_be_run() {
         placed.contacts
     );
     assert_eq!(placed.units.len(), job.count());
-    // Targets: 1 % of the height, and 1e-6 of the potential energy.
+    // Limits: overlap 1 % of the height of a unit, kinetic energy 1e-6 of the potential energy.
     assert!(placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
     // The layer from the placement file stays at rest. While the tangential springs form again, units move by about the
     // overlap of the contacts, at most some thousandths of the height. The limit is half of the allowed overlap.
@@ -104,7 +104,9 @@ fn a_placed_layer_rests_and_can_be_run() {
 
 #[test]
 fn a_layer_is_the_same_for_any_number_of_threads() {
-    let job = LayerJob::from_str(&small_layer().to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
+    let mut case = small_layer();
+    case["units"]["armour"]["x_m"] = json!([0.06, 0.18]);
+    let job = LayerJob::from_str(&case.to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
     let layer_with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| place(&job, |_, _| ()).unwrap().units)
@@ -116,7 +118,7 @@ fn a_layer_is_the_same_for_any_number_of_threads() {
 fn a_failed_run_keeps_its_last_checkpoint_and_its_failed_state() {
     let folder = tempfile::tempdir().unwrap();
     let mut case = case_file("drop-dolos.json");
-    // Concrete as soft as rubber, dropped 5 m: the overlap exceeds the rounding of the edges.
+    // The concrete is as soft as rubber and falls 5 m: the overlap exceeds the rounding of the edges, so the run fails.
     case["dry_test"]["height_m"] = json!(5.0);
     case["materials"][0]["young_modulus_pa"] = json!(1e6);
     case["output"] = json!({ "checkpoint_interval_s": 0.4 });

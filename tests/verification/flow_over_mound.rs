@@ -1,6 +1,6 @@
 //! Flow of the Fudo waves over the bare mound, compared with the inviscid flume model. The drag on the units is
 //! proportional to the square of the velocity at their height. In the flume of the experiment, friction slows only a
-//! layer of some millimetres at the bed, sqrt(nu t) = 2 mm. In the particle domain, the numerical viscosity
+//! layer of about sqrt(nu t) = 2 mm at the bed. In the particle domain, the numerical viscosity
 //! nu = alpha h c0 / 8 determines the thickness of this layer.
 
 use serde_json::json;
@@ -12,18 +12,19 @@ use glam::DVec3;
 const CREST_Z: f64 = 0.717;
 const MIDDLE_X: f64 = 39.0;
 
-/// Settings of the particle scheme.
+/// Settings of the particle simulation.
 #[derive(Debug, Clone, Copy)]
 struct Scheme {
     slip: &'static str,
     alpha: f64,
-    /// Speed of sound over sqrt(g d) [-].
+    /// Speed of sound divided by sqrt(g d), with the largest depth d of the domain [-].
     sound: f64,
     /// Ends of the particle domain [m].
     domain: [f64; 2],
 }
 
-/// No slip as in the published cases. The reflection from the end of the domain arrives after the compared time.
+/// No slip, as in the published cases. The reflection from the end of the domain arrives after the time range that
+/// [`drag_share`] evaluates.
 const NO_SLIP: Scheme = Scheme { slip: "original", alpha: 0.04, sound: 10.0, domain: [36.5, 42.0] };
 /// Free slip, with a quarter of the viscosity of [`NO_SLIP`].
 const FREE_SLIP: Scheme = Scheme { slip: "free_slip", alpha: 0.01, ..NO_SLIP };
@@ -90,7 +91,8 @@ fn drag_share(scheme: Scheme, height: f64, dp: f64) -> f64 {
 #[test]
 fn drag_over_the_mound_needs_free_slip() {
     let [no_slip, free_slip] = [NO_SLIP, FREE_SLIP].map(|scheme| drag_share(scheme, 0.045, 0.014));
-    // Reached: 0.61 and 0.91. The drag of a unit is known to 10 %, so a run that loses 40 % of the drag is not useful.
+    // Reached: 0.61 with no slip, 0.91 with free slip. The drag on a unit is known to 10 %, so a run that loses 40 % of
+    // the drag is not useful.
     assert!(free_slip > 0.87 && free_slip < 1.03 && no_slip < 0.7);
 }
 
@@ -110,14 +112,14 @@ fn drag_over_the_mound_grows_with_slip_and_lower_viscosity() {
     }
 }
 
-/// Computes the published scheme with a speed of sound that the published runs may have had: 36 m/s, 20 sqrt(g d) for
-/// the depth of 0.333 m in the published domain.
+/// Computes the published scheme with a speed of sound that the published runs may have had: 36 m/s. This is
+/// 20 sqrt(g d) for the depth of 0.333 m in the published domain, and 25 sqrt(g d) for the 0.217 m in this domain.
 #[test]
 #[ignore = "10 minutes on one core: \
     cargo test --release --test verification -- --ignored --nocapture drag_over_the_mound_grows_with_res"]
 fn drag_over_the_mound_grows_with_resolution() {
     let published = Scheme { sound: 25.0, ..NO_SLIP };
     let shares = [0.014, 0.009, 0.007].map(|dp| drag_share(published, 0.026, dp));
-    // nu is proportional to dp.
+    // The numerical viscosity is proportional to dp, so the drag grows with the resolution.
     assert!(shares.is_sorted() && shares[2] < 0.8);
 }

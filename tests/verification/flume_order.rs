@@ -8,7 +8,7 @@ use breakwater::waves::theory::solitary::ThirdOrderSolitary;
 
 const GRAVITY: f64 = 9.81;
 
-/// Returns the surface elevation after `end_s` every 0.1 m, without 1 m at either end.
+/// Returns the surface elevation at the time `end_s` at points 0.1 m apart, without the last metre at each end.
 fn surface(profile: &Profile, wave: &ThirdOrderSolitary, centre: f64, cell_m: f64, end_s: f64) -> Vec<f64> {
     let points = profile.points();
     let length = points[points.len() - 1][0];
@@ -52,7 +52,8 @@ fn solitary_wave_converges_with_second_order() {
         let runs = [0.2, 0.1, 0.05].map(|cell_m| surface(&profile, &wave, 12.0, cell_m, 4.0));
         let order = order(&runs);
         println!("{name}: order {order:.2}");
-        // In theory 2; on the coarsest grid, with 20 cells for half the wave, higher orders still contribute.
+        // In theory, the order is 2. On the coarsest grid, with 20 cells for half the wave, error terms of higher order
+        // still contribute.
         assert!(order > 1.8, "{name}: {order}");
     }
 }

@@ -11,8 +11,8 @@ const CELLS: usize = 40;
 /// Lowest and highest level of the bed [m]; still water is at 0.
 const LEVELS: [f64; 2] = [-1.0, 0.5];
 
-/// Beds of 3 to 8 corners, wet and dry, with slopes up to 1:0.67. Segments are 1 to 4 m long, so cells are at least a
-/// twentieth of the depth.
+/// Beds with 3 to 7 corners, wet and dry, with slopes up to 1:0.67. Segments are 1 to 4 m long, so the cell length is
+/// at least a twentieth of the depth.
 fn beds() -> impl Strategy<Value = Profile> {
     proptest::collection::vec((1.0..4.0f64, LEVELS[0]..LEVELS[1]), 3..8).prop_map(|segments| {
         let mut x = 0.0;
@@ -63,7 +63,7 @@ proptest! {
         let (centre, width) = (relative_position * length, 0.2 * length);
         let mut flume = flume(profile, layers, Friction::Manning { n_s_m13 });
         let hump = |x: f64| height * (-((x - centre) / width).powi(2)).exp();
-        // The hump moves between the limits of a long wave to the left, u = - eta sqrt(g / d), and to the right.
+        // `froude` = -1 is a long wave to the left, u = - eta sqrt(g / d) with d = 1 m; 1 is a long wave to the right.
         let at_rest_at_walls = |x: f64| (std::f64::consts::PI * x / length).sin();
         flume.set_flow(hump, |x, _| froude * GRAVITY.sqrt() * hump(x) * at_rest_at_walls(x));
         let volume = flume.volume_m2();

@@ -91,13 +91,14 @@ fn files_of_three_programs_move_the_wavemaker_identically() {
         sources.map(|source| motion(&simulation(folder.path(), &json!({ "kind": "file", "source": source }))));
     let stroke = motions[0].iter().map(|row| row[0]).fold(0.0, f64::max);
     println!("stroke {stroke:.4} m");
-    // The stroke is the volume of the wave over the depth, less a third because the velocities are at a fixed position.
+    // The full stroke is the volume of the wave divided by depth and width. This stroke is a third shorter, because the
+    // velocities are those at a fixed position.
     assert!(stroke > 0.2);
     for motion in &motions[1..] {
         let difference = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
         let largest = motion.iter().zip(&motions[0]).map(difference).fold(0.0, f64::max);
         println!("largest difference {largest:.1e} m or m/s");
-        // Target: 1e-6. The files contain all digits, so the motions differ only by rounding.
+        // Limit 1e-6: the files contain all digits, so the motions differ only by rounding.
         assert!(largest < 1e-6);
     }
 }

@@ -1,4 +1,4 @@
-//! The flume model makes the waves that a case requests, and the rows of the multi-layer piston follow these waves.
+//! The flume model generates the waves that a case requests, and the rows of the multi-layer piston follow these waves.
 
 use breakwater::case::{Case, Wave};
 use breakwater::simulation::flume::wave::incoming::{ml_piston, particle_start, run_flume};
@@ -49,7 +49,7 @@ fn piston_rows_follow_regular_waves_without_drift() {
         // Limit 5 %: the wave is nonlinear (H/d = 0.075), and the sponge reflects a little.
         assert!(((high - low) / theory - 1.0).abs() < 0.05);
         // Limit 5 mm; reached: 0.7 mm. The return flow below the waves, g H^2 / (8 c d) = 1.5 mm/s on average, would
-        // move the rows by 70 mm during the run, and by 10 mm within the six seconds over which the drift is removed.
+        // move the rows by 70 mm during the run, and by 10 mm within 6 s, the time constant of the drift removal.
         assert!(mean.abs() < 0.005);
     }
     assert!(piston.max_shoreward_displacement_m() > 0.015);
@@ -70,8 +70,8 @@ fn irregular_waves_have_their_significant_height_and_seed() {
     };
     let (case, record) = run_wave(&sea(1), 70.0);
     println!("H_s = {:.4} m at 4 m", significant(&record));
-    // The sea repeats once. Limit 10 %: the shortest waves, which a cell of 0.05 m does not resolve, have 4 % of the
-    // height.
+    // The evaluated 64 s are one full repetition of the sea. Limit 10 %: the shortest waves, which a cell of 0.05 m does
+    // not resolve, contribute 4 % of the height.
     assert!((significant(&record) / 0.03 - 1.0).abs() < 0.1);
     let (other, _) = run_wave(&sea(2), 1.0);
     assert_ne!(case.hash, other.hash);

@@ -27,8 +27,8 @@ fn kernel_moments_on_a_lattice_have_the_error_of_theory() {
             "h = {factor:.3} dp: sum V W = 1 {zeroth:+.2e} (theory {expected:+.2e}), first moment of grad W = \
              1 {of_gradient:+.2e} (theory {expected_of_gradient:+.2e})"
         );
-        // Limit 3e-6: the kernel constants are in single precision, 1e-7, and the series omits 1e-4 of an error of
-        // 1e-2.
+        // Limit 3e-6: the kernel constants have rounding errors of 1e-7 (single precision), and `aliasing` omits 1e-4
+        // of an error of 1e-2.
         assert!((zeroth - expected).abs() < 3e-6, "{factor}");
         assert!((of_gradient - expected_of_gradient).abs() < 3e-6, "{factor}");
         // Limit 1e-14: rounding; odd moments vanish by symmetry.
@@ -70,7 +70,7 @@ fn kernel_moments_on_a_jittered_lattice_scatter_as_in_theory() {
         let deviation = rms(values.iter().map(|value| value - mean));
         let (expected, expected_deviation) = (on_a_lattice + self_term(f), spread(f));
         println!("{name} = {mean:.2e} +- {deviation:.2e}, theory {expected:.2e} +- {expected_deviation:.2e}");
-        // A tenth of the scatter: to first order, a particle's jitter cancels in the mean if all its neighbours are
+        // Limit: a tenth of the scatter. To first order, a particle's jitter cancels in the mean if all its neighbours are
         // included, so only particles near the faces contribute.
         assert!((mean - expected).abs() < 0.1 * expected_deviation, "{name}");
         // Limit 15 %: effects of second order in the jitter, and the finite sample.
@@ -130,8 +130,8 @@ fn renormalised_gradients_of_linear_fields_are_exact() {
             "renormalised gradient, jitter {jitter} dp: error {worst_inside:.1e} inside, {worst:.1e} at faces; \
              turbulent stress of a shear flow {worst_stress:.1e}"
         );
-        // Positions in single precision have errors of 1e-8 m, 5e-7 of h = 0.02 m, averaged over some 280 neighbours.
-        // Sums have errors of 1e-7 of the terms that cancel.
+        // Limits 2e-6 and 4e-6, from single precision: positions have errors of 1e-8 m or 5e-7 h, which average out
+        // over some 280 neighbours. Sums have errors of 1e-7 of the terms that cancel.
         assert!(worst_inside < 2e-6 && worst_stress < 4e-6);
         // The limit is twice as large at faces, where half of the neighbourhood is empty along the normal.
         assert!(worst < 4e-6);
@@ -150,8 +150,8 @@ fn pressure_gradient_of_a_linear_field_has_the_lattice_error() {
         worst = worst.max((found - (1.0 + error) * slope).length() / slope.length());
     }
     println!("pressure gradient on a lattice: deviation {worst:.1e} from (1 {error:+.2e}) times the exact value");
-    // 2 p_a sum V grad W cancels except for the rounding of some 280 terms, 6e-8 sqrt(280) = 1e-6 of 2 p / h = 8e4
-    // Pa/m, which is 22 times the slope.
+    // Limit 2e-5 of the slope. The terms of 2 p_a sum V grad W cancel except for the rounding of some 280 terms,
+    // 6e-8 sqrt(280) = 1e-6 of 2 p / h. This term, 2 p / h = 8e4 Pa/m, is 22 times the slope.
     assert!(worst < 2e-5, "{worst}");
 }
 
@@ -195,6 +195,7 @@ fn density_rate_of_a_linear_velocity_has_the_lattice_error() {
         "divergence of a linear velocity: deviation {worst:.1e} from (1 {error:+.2e}) times the exact value; in rigid \
          rotation {rotating:.1e}"
     );
-    // Single precision has errors of 1.2e-7 m/s for 2 m/s and 7e-9 m for 0.1 m; differences are 0.1 m/s and 0.02 m.
+    // Limit 2e-6: in single precision, velocities of 2 m/s have errors of 1.2e-7 m/s and positions of 0.1 m errors of
+    // 7e-9 m. The differences between neighbours are about 0.1 m/s and 0.02 m.
     assert!(worst < 2e-6 && rotating < 2e-6, "{worst} {rotating}");
 }

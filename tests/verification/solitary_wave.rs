@@ -7,7 +7,7 @@ use super::tanks::{run_until, simulation};
 
 /// Still water depth d [m].
 const DEPTH: f64 = 0.5;
-/// First position at which the wave is measured [m], four depths from the wavemaker.
+/// First position at which the wave is measured [m], two depths from the wavemaker of the particle domain.
 const FIRST: f64 = 14.0;
 /// Half width w of the hat function that averages the surface [m]. The averaging lowers a crest of H/d = 0.1 by
 /// (w^2/12) eta''/eta = 0.3 % at both positions.
@@ -50,7 +50,7 @@ impl Wave {
         })
     }
 
-    /// Returns the approximate time at which the crest passes x [m] in [s].
+    /// Returns the approximate flume time [s] at which the crest passes x [m].
     fn passing(&self, x: f64) -> f64 {
         let celerity = (9.81 * DEPTH * (1.0 + self.height)).sqrt();
         // The crest leaves the piston after half of the stroke time. 3.8 is the argument where the motion is cut off.
@@ -139,14 +139,14 @@ fn loss_of_height_falls_with_resolution_slip_and_lower_viscosity() {
     let more_viscous = loss(0.025, 0.1, "original");
     let fine = loss(0.0125, 0.04, "original");
     let fine_free_slip = loss(0.0125, 0.04, "free_slip");
-    // The viscosity of equation 3 is proportional to alpha h; most of the loss is at the bed.
+    // The viscosity of equation (3) in docs/methods.md is proportional to alpha h. Most of the loss is at the bed.
     assert!(
         less_viscous < coarse && coarse < more_viscous && fine < coarse && free_slip < coarse && fine_free_slip < fine
     );
 }
 
-/// Uses all defaults: free slip and a speed of sound of 15 sqrt(g d). The viscosity of equation 3 is proportional to
-/// the speed of sound.
+/// Uses all defaults: free slip and a speed of sound of 15 sqrt(g d). The viscosity of equation (3) in docs/methods.md
+/// is proportional to the speed of sound.
 #[test]
 #[ignore = "40 minutes on one core: \
     cargo test --release --test verification -- --ignored --nocapture keeps_its_height_by_default"]
@@ -155,7 +155,7 @@ fn a_solitary_wave_keeps_its_height_by_default() {
     assert!(wave.loss_over(20.0) < 0.05);
 }
 
-/// Target: less than 5 % over 20 d with the defaults.
+/// Target: with free slip and five particles in the wave height, the height falls by less than 5 % over 20 d.
 #[test]
 #[ignore = "30 minutes on 2 cores: \
     cargo test --release --test verification -- --ignored --nocapture keeps_its_height_with_five"]

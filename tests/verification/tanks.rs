@@ -74,7 +74,8 @@ pub fn tank_with_held_unit(length: f64, depth: f64, dp: f64, duration: f64) -> V
     case
 }
 
-/// Returns the case of a dam break of 1 m x 2 m in a tank of 4 m (Koshizuka & Oka 1996), 10 particles wide.
+/// Returns the case of a dam break (Koshizuka & Oka 1996): a column of water 1 m long and 2 m high, in a tank 4 m long
+/// and 10 particles wide.
 pub fn dam_break(dp: f64, duration: f64) -> Value {
     json!({
         "title": "Dam break",

@@ -31,7 +31,8 @@ fn dam_breaks_in_a_layer_and_in_a_slice_agree() {
         tip_and_energy(&tank)
     });
     println!("tip {:.3} and {:.3} m, energy {:.1} and {:.1} J/m", slice[0], layer[0], slice[1], layer[1]);
-    // Half a particle spacing and 2 %, because the particles of layer and slice start at different positions.
+    // Limits: half a particle spacing for the tip and 2 % for the energy, because the particles of layer and slice
+    // start at different positions.
     assert!((slice[0] - layer[0]).abs() < 0.5 * dp && (slice[1] / layer[1] - 1.0).abs() < 0.02);
 }
 
@@ -54,7 +55,7 @@ fn gauges_read_level_and_pressure_of_a_layer() {
         let at = DVec3::new(0.5, -1.0, 0.1);
         read = vec![level, sampler.sample(at).unwrap().pressure, sampler.occupied(at)];
     });
-    // Limits: 0.1 dp for the level; 2 % of the pressure, which oscillates after one second; 2 % of the sum of W V.
+    // Limits: 0.1 dp for the level; 2 % of the pressure, which still oscillates after 1 s; 2 % of the sum of W V.
     assert!((read[0] - depth).abs() < 0.1 * dp, "{read:?}");
     assert!((read[1] / (RHO0 * GRAVITY * (depth - 0.1)) - 1.0).abs() < 0.02, "{read:?}");
     assert!((read[2] - 1.0).abs() < 0.02, "{read:?}");

@@ -26,8 +26,8 @@ const C0: f64 = 10.0;
 /// Pressure of the water at rest [Pa], equal to 0.1 m of water. The pressure drop in the wake is smaller.
 const PRESSURE: f64 = 1000.0;
 
-/// Added mass over the mass of the displaced water [-], by finite elements (tools/potential-flow/tetrapod). Elements of
-/// 0.06, 0.03 and 0.02 heights at the unit give 0.583, 0.612 and 0.618. 0.622 is the extrapolation with the square of
+/// Added mass over the mass of the displaced water [-], by finite elements (tools/potential-flow/tetrapod). Element
+/// sizes of 0.06, 0.03 and 0.02 unit heights at the unit give 0.583, 0.612 and 0.618 respectively. 0.622 is the extrapolation with the square of
 /// the element size.
 const BY_POTENTIAL_FLOW: f64 = 0.622;
 
@@ -155,7 +155,8 @@ fn force_over_pressure(mut stream: Stream, name: &str) -> DVec3 {
 #[test]
 fn added_mass_of_a_tetrapod_agrees_with_potential_flow() {
     let [first, later] = added_mass(8.0, ModifiedDynamic).map(|share| share / BY_POTENTIAL_FLOW);
-    // Reached: 1.2 with 8 and with 11 particles, because the particles of the unit slow down the adjacent water.
+    // Reached: 1.2 times the value of potential flow, with 8 and with 11 particles in the height of the unit, because
+    // the particles of the unit slow down the adjacent water.
     // Extrapolation with the square root of time to zero thickness of this slow layer gives about 1.
     assert!((1.0..1.25).contains(&first) && later > first, "{first} {later}");
 }

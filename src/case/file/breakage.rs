@@ -34,7 +34,7 @@ pub struct BreakageFile {
     #[serde(default)]
     pub joints: Joints,
     /// Simulated time after first contact, at prototype scale [s]. Default: 1.5 times the duration of the impact by
-    /// Hertz's law, and at least 10 times the unit's height over the speed of sound in the concrete.
+    /// Hertz's law, but at least 10 times the travel time of an elastic wave along the height of the unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
     /// Number of impacts that are computed at the same time. Default: the number of threads.
@@ -89,8 +89,8 @@ pub struct ImpactSelectionFile {
     /// Quantity by which the impacts are ranked.
     #[serde(default)]
     pub by: ImpactMeasure,
-    /// Largest number of impacts, the hardest first. Without this key, all recorded impacts are re-run. Without the
-    /// whole entry `select`, the 3 hardest impacts are re-run.
+    /// Largest number of impacts that are re-run, the hardest first. Without this key, all recorded impacts are re-run.
+    /// Without the whole entry `select`, the 3 hardest impacts are re-run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst: Option<usize>,
     /// Smallest value of the quantity `by` at the scale of the case: force [N], velocity [m/s] or energy [J].

@@ -15,32 +15,33 @@ pub struct DomainFile {
     pub width_m: Option<f64>,
     /// Boundaries at the two sides of the flume.
     pub sides: Sides,
-    /// Level of the top of the walls [m]. Water may splash above the walls by the height of the walls. If a particle
-    /// rises higher, the run stops with an error.
+    /// Level of the top of the walls [m]. Water may splash above the walls by as much as the walls rise above the
+    /// lowest ground. If a particle rises higher, the run stops with an error.
     pub top_z_m: f64,
     /// Particle spacing dp [m].
     pub dp_m: f64,
     /// Region that is filled with water at the start.
     #[serde(default)]
     pub water: WaterFile,
-    /// Time of the flume model at which the particle simulation starts [s]. By default, it starts when the velocity at
-    /// the wavemaker reaches `start_at_share` times the maximum velocity.
+    /// Time of the flume model, or of the wave files, at which the particle simulation starts [s]. By default,
+    /// `start_at_share` determines the start.
     #[serde(default)]
     pub start_s: Option<f64>,
-    /// Velocity at the wavemaker at which the particle simulation starts, over the maximum velocity there [-].
+    /// The particle simulation starts when the depth-averaged velocity of the water at the wavemaker first reaches this
+    /// value times its maximum [-]. The velocity is taken from the flume model or from the wave files.
     #[serde(default = "default_start_share")]
     pub start_at_share: f64,
     /// Damping zone: slows the water down in front of the shoreward end, so that the end reflects no waves.
-    // Not written at its default, so that the hash of cases without this key does not change.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping_zone: Option<DampingZoneFile>,
     /// Relaxation zone: forces the water near the wavemaker towards the velocity of the flume model. The zone absorbs
     /// waves that the structure reflects, so that the wavemaker does not reflect them again.
-    // Not written at its default, so that the hash of cases without this key does not change.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relaxation_zone: Option<RelaxationZoneFile>,
     /// Obstacles: fixed boxes in the water.
-    // Not written at its default, so that the hash of cases without this key does not change.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacles: Vec<BoxFile>,
 }
@@ -107,8 +108,8 @@ pub enum Sides {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum WaterFile {
-    /// Water fills the domain up to the still water level. If the wave has already entered the domain, water fills it
-    /// up to the free surface of the flume model.
+    /// Water fills the domain up to the still water level, or up to the free surface of the flume model where the wave
+    /// has already entered the domain.
     StillLevel {},
     /// Water fills a block between two x coordinates, from the bed up to a level, for a dam break.
     Block(BlockFile),

@@ -37,7 +37,7 @@ pub struct DryFile {
     #[serde(default)]
     pub contact: ContactFile,
     /// Breakage analysis: re-runs the hardest impacts of the run at prototype scale with breakable units.
-    // Not written at its default, so that the hash of cases without this key does not change.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(alias = "fracture", default, skip_serializing_if = "Option::is_none")]
     pub breakage: Option<BreakageFile>,
     /// Output files and their intervals.
@@ -59,7 +59,8 @@ pub enum DryTestFile {
     Settle {},
     /// Drop test: the units are lifted from their initial poses and released.
     Drop(DropFile),
-    /// Tilt test: the bed tilts slowly until the units slide. The shoreward end moves downwards.
+    /// Tilt test: the bed tilts slowly, with its shoreward end downwards. The result is the angle at which each unit
+    /// begins to slide.
     Tilt(TiltFile),
 }
 
@@ -152,7 +153,7 @@ pub struct DryOutputFile {
     pub units_interval_s: f64,
     /// Interval between rows of the tables with unit motion and energy [s].
     pub series_interval_s: f64,
-    /// Interval between checkpoints in simulated time [s]; 0 for no checkpoints.
+    /// Interval between checkpoints in simulated time [s]; 0: a checkpoint is written only if the user stops the run.
     pub checkpoint_interval_s: f64,
 }
 

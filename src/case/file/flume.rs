@@ -23,8 +23,8 @@ pub struct FlumeFile {
     /// Cell length of the flume model along the flume [m].
     #[serde(default = "default_cell_m")]
     pub cell_m: f64,
-    /// Manning's n of the bed in the flume model [s m^(-1/3)]: 0.010 glass, 0.013 smooth concrete. By default the bed
-    /// has no friction.
+    /// Manning's n of the bed in the flume model [s m^(-1/3)]: 0.010 for glass, 0.013 for smooth concrete. By
+    /// default, the bed has no friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub manning_s_m13: Option<f64>,
     /// Boundary at the shoreward end of the flume model.
@@ -69,8 +69,8 @@ impl Default for ShorewardEndFile {
 }
 
 impl ShorewardEndFile {
-    /// Returns true for the default. The default is not written, so that the hash of cases without this key stays the
-    /// same.
+    /// Returns true for the default, which is left out of the serialized case, so that cases without this key keep
+    /// their hash.
     fn is_wall(&self) -> bool {
         matches!(self, Self::Wall {})
     }
@@ -80,7 +80,7 @@ impl ShorewardEndFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpongeFile {
-    /// Length of the sponge layer [m]. A length of two wavelengths absorbs a wave.
+    /// Length of the sponge layer [m]. Two wavelengths are enough to absorb a wave.
     pub length_m: f64,
 }
 

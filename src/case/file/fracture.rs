@@ -35,7 +35,7 @@ pub struct FractureFile {
     /// Friction between bodies. Pairs that are not listed have no friction.
     #[serde(default)]
     pub friction: Vec<BodyFrictionFile>,
-    /// Landmarks: boxes with names. The report names the landmark nearest to the start of a crack.
+    /// Landmarks: boxes with names. For each crack, the report names the landmark nearest to the start of the crack.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub landmarks: Vec<LandmarkFile>,
     /// Output files and their intervals.
@@ -59,7 +59,7 @@ pub struct MethodFile {
     /// Joint penalty [-]: stiffness p_0 of the joints over Young's modulus. Default: 50 for `intrinsic`, 10 for `tied`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_penalty: Option<f64>,
-    /// Rule for the opening over which the stress in a joint decreases to zero.
+    /// Rule that sets the softening range: the opening after the peak stress over which the stress decreases to zero.
     #[serde(default)]
     pub softening: Softening,
     /// Contact penalty [-]: stiffness p of the contacts over Young's modulus.
@@ -89,14 +89,16 @@ pub enum Joints {
     Unbreakable,
 }
 
-/// Rule for the opening over which the stress in a joint decreases to zero.
+/// Rule that sets the softening range of a joint: the opening after the peak stress over which the stress decreases to
+/// zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Softening {
-    /// The opening for which the area under the softening curve equals the fracture energy G_f.
+    /// The range for which the area under the curve of stress against opening equals the fracture energy G_f.
     #[default]
     Exact,
-    /// The opening max(2 delta_p, 3 G_f / f), as in the published programs. The joint then dissipates 1.16 G_f.
+    /// The range max(2 delta_p, 3 G_f / f_t) of the published programs, with the opening delta_p at the peak stress and
+    /// the tensile strength f_t. The joint then dissipates 1.16 G_f.
     Published,
 }
 
@@ -174,7 +176,7 @@ pub enum LoadFile {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         history: Option<Vec<[f64; 2]>>,
     },
-    /// A force, and optionally a moment, at a point of a body, for example of a recorded impact.
+    /// A force, and optionally a moment, at a point of a body, for example the force of a recorded impact.
     Force {
         /// Name of the loaded body.
         body: String,
@@ -271,9 +273,9 @@ pub struct FractureOutputFile {
     pub surfaces_interval_s: f64,
     /// Interval between rows of the energy balance [s].
     pub energy_interval_s: f64,
-    /// Interval between checkpoints, from which `breakwater resume` continues the run [s]; 0 for no checkpoints.
-    /// Default: a fiftieth of the duration.
-    // Not written at its default, so that the hash of cases without this key does not change.
+    /// Interval between checkpoints, from which `breakwater resume` continues the run [s]; 0: a checkpoint is written
+    /// only if the user stops the run. Default: a fiftieth of the duration.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checkpoint_interval_s: Option<f64>,
     /// Interval between snapshots of all tetrahedra with their stresses [s]; 0 (default) for no snapshots.

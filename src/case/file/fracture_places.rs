@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A landmark: a box with a name, in the undeformed mesh. The report names the landmark nearest to the start of a
-/// crack.
+/// A landmark: a box with a name, in the undeformed mesh. For each crack, the report names the landmark nearest to the
+/// point where the crack starts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LandmarkFile {

@@ -1,7 +1,8 @@
 //! The input files as the user writes them: one struct per JSON object, without derived values.
 //!
 //! The name of a key ends with its unit. Unknown keys are errors, because a misspelt key must not be ignored.
-//! The solvers do not read these structs but the validated `Case`. The doc comments become the JSON schema.
+//! The solvers read the validated `Case` instead of these structs. The doc comments become descriptions in the JSON
+//! schema.
 
 mod breakage;
 pub(super) mod domain;
@@ -72,7 +73,7 @@ pub struct CaseFile {
     #[serde(default)]
     pub wave: WaveFile,
     /// Wavemaker at the seaward end of the particle domain.
-    // Not written at its default, so that the hash of cases without this key does not change.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(default, skip_serializing_if = "WavemakerFile::is_default")]
     pub wavemaker: WavemakerFile,
     /// The armour units. Leave this key out for a flume without units.
@@ -88,7 +89,7 @@ pub struct CaseFile {
     #[serde(default)]
     pub contact: ContactFile,
     /// Breakage analysis: re-runs the hardest impacts of the run at prototype scale with breakable units.
-    // Not written at its default, so that the hash of cases without this key does not change.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(alias = "fracture", default, skip_serializing_if = "Option::is_none")]
     pub breakage: Option<BreakageFile>,
     /// Gauges: points at which elevation, pressure or velocity of the water is measured.
@@ -97,7 +98,7 @@ pub struct CaseFile {
     /// Output files and their intervals.
     #[serde(default)]
     pub output: OutputFile,
-    /// Criteria that end the run: duration and rest of the units.
+    /// Criteria that end the run: its duration, and the rest criterion for the units.
     pub stop: StopFile,
 }
 
@@ -110,8 +111,8 @@ pub struct FluidFile {
     /// Gravitational acceleration [m/s2].
     pub gravity_m_s2: f64,
     /// Speed of sound over sqrt(g d) [-], where d is the largest initial water depth in the domain. With 10, the
-    /// density varies by less than 1 % if the water is slower than a long wave. With 15, the weight of the compressed
-    /// water is correct within 0.25 %.
+    /// density varies by less than 1 % if the water is slower than a long wave, sqrt(g d). With 15, hydrostatic
+    /// compression makes still water less than 0.25 % too heavy.
     pub sound_speed_factor: f64,
     /// Exponent gamma of Tait's equation of state [-].
     pub tait_exponent: f64,

@@ -26,16 +26,18 @@ pub struct NumericsFile {
     pub cfl: f64,
     /// Boundary condition at bed, walls, wavemaker and units.
     pub boundary: Boundary,
-    /// Velocity condition at bed and walls. Default: `free_slip` with `mdbc`, and `original` with `dbc`, as in the
-    /// published runs.
+    /// Velocity condition at bed and walls. Default: `free_slip` if `boundary` is `mdbc`, `original` if `boundary` is
+    /// `dbc`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_slip: Option<WallSlip>,
-    // This key and the next key are not written at their defaults, so that the hash of older cases does not change.
-    /// true: free slip at the units, too; false: no slip at the units. Only used if `wall_slip` is `free_slip`.
+    // This key and the next key are left out of the serialized case at their defaults, so that older cases keep their
+    // hash.
+    /// true: free slip at the units, too. false: boundary particles of a unit have the tangential velocity of the unit.
+    /// Only used if `wall_slip` is `free_slip`.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub slip_on_units: bool,
     /// true: water pressure also acts on a unit in gaps that are too narrow for water particles. false: only water
-    /// particles act on units, probably as in the published runs. Has an effect only with `mdbc`.
+    /// particles act on units, which is probably the method of the published runs. Has an effect only with `mdbc`.
     #[serde(skip_serializing_if = "Clone::clone")]
     pub gap_pressure: bool,
     /// Number of particle layers in walls and bed.
@@ -71,7 +73,7 @@ impl Default for NumericsFile {
 pub enum Viscosity {
     /// Artificial viscosity (Monaghan 1992), equation 3.
     Artificial,
-    /// Laminar viscosity (Lo & Shao 2002). Near a free surface, it dissipates too little energy of waves.
+    /// Laminar viscosity (Lo & Shao 2002). Waves on a free surface lose too little energy.
     Laminar,
     /// Laminar viscosity with sub-particle-scale turbulence (Dalrymple & Rogers 2006).
     LaminarSps,
@@ -89,7 +91,7 @@ pub enum DensityDiffusion {
     MolteniColagrossi,
     /// Diffusion of the density minus its hydrostatic part (Fourtakas et al. 2019), equation 4.
     Fourtakas,
-    /// Delta-SPH with renormalised gradients (Antuono et al. 2010).
+    /// Diffusion of the density minus the part that follows from its mean gradient (delta-SPH, Antuono et al. 2010).
     Antuono,
 }
 

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Armour units, all of the same shape and mass. They form a row across the flume or armour layers, or the case lists
-/// their centres or poses.
+/// Armour units, all of the same shape and mass. The case places them in a row across the flume or in armour layers, or
+/// it lists their centres or poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UnitsFile {
@@ -29,7 +29,7 @@ pub struct UnitsFile {
     /// Number of units in the row.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u32>,
-    /// Pose of each unit. Replaces the row.
+    /// Pose of each unit. Replaces `count`, `pitch_m`, `x_m`, `first_y_m` and `orientation`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poses: Option<Vec<PoseFile>>,
     /// Path of a placement file, relative to the folder of the case file. `breakwater place` writes this file, which
@@ -37,7 +37,7 @@ pub struct UnitsFile {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placement_file: Option<String>,
     /// Armour layers on a slope. `breakwater place` lowers the units onto the slope one by one and writes a placement
-    /// file. A run then needs the key `placement_file`.
+    /// file. A run of this case needs the key `placement_file`, too.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub armour: Option<ArmourFile>,
     /// Distance between the vertical axes of neighbouring units in the row [m].
@@ -53,7 +53,7 @@ pub struct UnitsFile {
     /// y of the first unit of the row [m]. By default, the row is in the middle of the flume width.
     #[serde(default)]
     pub first_y_m: Option<f64>,
-    /// Rotation of the units of the row about the vertical axis.
+    /// Rotation of the units about the vertical axis, for a row and for `centres_m`.
     #[serde(default)]
     pub orientation: Orientation,
     /// A unit counts as damaged if its displacement is larger than this distance [m]. Default: the height of the unit.
@@ -70,8 +70,9 @@ pub struct ArmourFile {
     /// Number of armour layers.
     #[serde(default = "default_armour_layers")]
     pub layers: u32,
-    /// Packing density [-]: number of units in all layers per slope area of D_n^2. For two layers: 1.04 for Tetrapods,
-    /// 0.83 for Dolosse, 1.17 for cubes (Shore Protection Manual 1984).
+    /// Packing density [-]: number of units in all layers per slope area of D_n^2, with the nominal diameter
+    /// D_n = V^(1/3) of a unit of volume V. Usual for two layers: 1.04 for Tetrapods, 0.83 for Dolosse, 1.17 for cubes
+    /// (Shore Protection Manual 1984).
     pub packing_density: f64,
     /// Rotation of the units before they are lowered onto the slope.
     #[serde(default)]
@@ -117,7 +118,7 @@ fn no_rotation() -> [f64; 4] {
 pub struct PlacementFile {
     /// Title of the case whose units were placed.
     pub title: String,
-    /// Packing density that was reached [-]: number of units in all layers per slope area of D_n^2.
+    /// Packing density of the placed layers [-]: number of units in all layers per slope area of D_n^2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub packing_density: Option<f64>,
     /// Pose of each unit.
@@ -176,7 +177,7 @@ fn default_scale() -> f64 {
     1.0
 }
 
-/// Rotation of the units of a row about the vertical axis.
+/// Rotation of the units about the vertical axis, for a row and for `centres_m`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Orientation {
@@ -197,8 +198,8 @@ pub enum Orientation {
 pub struct MaterialFile {
     /// Name of the material. `units.material`, `flume.material` and `friction` refer to this name.
     pub name: String,
-    /// Young's modulus of the contacts [Pa]. A value below the real one makes contacts last longer and allows longer
-    /// time steps.
+    /// Young's modulus of the contacts [Pa]. A value below the real modulus makes contacts last longer and
+    /// allows longer time steps.
     pub young_modulus_pa: f64,
     /// Measured stiffness of a contact between two bodies of this material [N/m]. Required for the contact law
     /// `linear`.
@@ -237,7 +238,7 @@ pub struct ContactFile {
     /// Rounding radius of the edges of a unit over the height of the unit [-]. Hertz's law uses the same radius.
     pub rounding_share: f64,
     /// Contact law.
-    // Not written at its default, so that the hash of cases without this key does not change.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(skip_serializing_if = "ContactLawName::is_default")]
     pub law: ContactLawName,
 }
@@ -258,7 +259,7 @@ pub enum ContactLawName {
     /// Linear springs whose stiffness follows from the key `contact_stiffness_n_m` of the materials.
     Linear,
     /// Law of the published runs (Chrono 4.0). Every contact has a radius of 0.1 m. The tangential spring is reset in
-    /// each time step; therefore units creep.
+    /// each substep of the contact computation, so units creep.
     Chrono4,
 }
 
@@ -272,7 +273,7 @@ impl ContactLawName {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum GaugeFile {
-    /// Elevation of the free surface above the still water level [m]. The flume model also writes this elevation.
+    /// Elevation of the free surface above the still water level [m], from the particles and from the flume model.
     Elevation(ElevationFile),
     /// Pressure of the water [Pa].
     Pressure(PointFile),
@@ -301,11 +302,12 @@ pub struct PointFile {
     pub name: String,
     /// Initial position [x, y, z] [m].
     pub at_m: [f64; 3],
-    /// Number of the unit with which the gauge moves, counted from 1. By default, the gauge moves with no unit.
+    /// Number of the unit with which the gauge moves, counted from 1. By default, no unit moves the gauge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on_unit: Option<u32>,
-    /// Path of a moving gauge. Each row [t, x, y, z] has the time from the start of the particle simulation [s] and the
-    /// displacement [m]. The gauge moves linearly between rows, and stays at the displacement of the last row.
+    /// Path of a moving gauge. Each row [t, x, y, z] has the time t from the start of the particle simulation [s] and
+    /// the displacement x, y, z [m]. The gauge moves linearly between rows, and stays at the displacement of the last
+    /// row.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub way: Vec<[f64; 4]>,
 }

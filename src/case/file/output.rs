@@ -17,7 +17,7 @@ pub struct OutputFile {
     pub checkpoint_interval_s: f64,
     /// Fields of the water particles in the snapshots, each listed at most once. The position is always written. The
     /// report draws the water only if the list contains `velocity`.
-    // Not written at its default, so that the hash of cases without this key does not change.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(skip_serializing_if = "is_every_field")]
     pub fluid_fields: Vec<FluidField>,
     /// Lower and upper corner [[x, y, z], [x, y, z]] of a box [m]. The snapshots contain only the water particles in
@@ -87,8 +87,8 @@ pub struct StopFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AtRestFile {
-    /// A unit is at rest if its centre and its tips are slower than this speed [m/s]. In a flume case, they must also
-    /// move no further than this speed times `for_s` during the time at rest.
+    /// A unit is at rest if its centre and its tips are slower than this speed [m/s]. In a flume case, centre and tips
+    /// must also stay within this speed times `for_s` of the positions that they had when the time at rest began.
     pub speed_m_s: f64,
     /// Time for which all units must be at rest [s].
     pub for_s: f64,

@@ -20,7 +20,7 @@ pub struct ReferenceFile {
     pub notes: Vec<String>,
     /// Number of units. Every displacement file has one row per unit.
     pub units: u32,
-    /// First and last of the units that do not stand at a side wall, counted from 1. Default: all units.
+    /// Numbers of the first and the last unit that do not stand at a side wall, counted from 1. Default: all units.
     #[serde(default)]
     pub inner_units: Option<[u32; 2]>,
     /// A unit counts as damaged if its displacement is larger than this distance [m].
@@ -54,7 +54,8 @@ pub enum SeriesRole {
     PublishedSimulation,
 }
 
-/// A wave of the experiment. A run is compared with this wave if kind, height and, if given, period are the same.
+/// A wave of the experiment. A run is compared with this wave if its wave has the same kind, and the same height and
+/// period within 0.5 %. The period is ignored if it is not given here.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceWaveFile {

@@ -18,7 +18,7 @@ pub struct SweepFile {
     /// Path of the case file, relative to the folder of the sweep file. Paths in the case file are relative to the
     /// folder of the case file.
     pub case: PathBuf,
-    /// Keys with values that replace those of the case file in all runs, for example `{"domain.dp_m": 0.014}`.
+    /// Keys with new values, which replace the values of the case file in all runs: `{"domain.dp_m": 0.014}`.
     #[serde(default)]
     pub set: Map<String, Value>,
     /// Keys that vary, with their values. The last key varies fastest.
@@ -27,7 +27,8 @@ pub struct SweepFile {
     #[serde(default)]
     pub combine: Combine,
     /// Simulated time [s] until which the units do not move in any run. One common run with the first values computes
-    /// this time, and all runs start from its checkpoint. Then only friction, the rest criterion and titles may vary.
+    /// the case up to this time, and all runs start from its checkpoint. With this key, only `friction`,
+    /// `stop.at_rest`, `title`, `assumptions` and `reference` may vary.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub common_start_s: Option<f64>,
 }
@@ -39,7 +40,7 @@ pub enum Combine {
     /// All combinations of all values.
     #[default]
     All,
-    /// The base case first, then runs that change only one key. The results show the influence of each key.
+    /// First the base case. Then, for each value of each key, one run that changes only this key.
     OneAtATime,
 }
 

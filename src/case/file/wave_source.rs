@@ -12,7 +12,7 @@ pub struct ExternalWaveFile {
     /// Files that the other program has written.
     pub source: WaveSourceFile,
     /// Celerity of the wave [m/s]. If given, each row of the wavemaker moves with the velocity at its current position.
-    /// If not given, each row moves with the velocity at its start position, and the stroke is too short.
+    /// If not given, each row moves with the velocity at its start position, and the stroke of the row is too short.
     #[serde(default)]
     pub celerity_m_s: Option<f64>,
 }
@@ -56,8 +56,9 @@ pub struct SwashFile {
 pub struct SwashTableFile {
     /// Path of the file.
     pub path: PathBuf,
-    /// Names of the columns in order, required if the file has no header: `tsec`, `watl`, `velk1`, `velk2` and so on
-    /// (x velocity of a layer, layer 1 at the surface), `velx` (depth-averaged x velocity), `-` for any other column.
+    /// Names of the columns from left to right, required if the file has no header: `tsec` (time), `watl` (water
+    /// level), `velk1`, `velk2` and so on (x velocity of a layer, layer 1 at the surface), `velx` (depth-averaged x
+    /// velocity), `-` for any other column.
     #[serde(default)]
     pub columns: Vec<String>,
 }

@@ -97,9 +97,10 @@ fn default_repeat_periods() -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SolitaryTheory {
-    /// Piston motion with k = sqrt(3H / 4d^3) (Goring & Raichlen 1980).
+    /// Piston motion for the surface H sech^2(k (c t - x)) with k = sqrt(3 H / (4 d^3)): wave height H,
+    /// depth d, celerity c (Goring & Raichlen 1980).
     Boussinesq,
-    /// Piston motion with k = sqrt(3H / 4d^2(d+H)), more accurate than `boussinesq` (Guizien & Barthelemy 2002).
+    /// Same surface with k = sqrt(3 H / (4 d^2 (d + H))), more accurate than `boussinesq` (Guizien & Barthelemy 2002).
     #[default]
     Rayleigh,
     /// Third-order wave (Grimshaw 1971), which enters the flume model through its seaward end.
@@ -136,8 +137,8 @@ impl WavemakerFile {
 #[serde(deny_unknown_fields)]
 pub struct PistonFile {
     /// Distance between the piston and an absorption gauge, which moves with the piston [m]. With this key, the piston
-    /// absorbs reflected waves: the elevation at the gauge minus the generated wave. By default, there is no
-    /// absorption.
+    /// absorbs reflected waves. The reflected wave is the measured minus the generated elevation at the gauge. By
+    /// default, there is no absorption.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub absorption_gauge_m: Option<f64>,
 }

@@ -53,7 +53,7 @@ pub struct Domain {
 pub enum Start {
     /// At this time of the flume model [s].
     At(f64),
-    /// When the velocity at the wavemaker reaches this value times its maximum [-].
+    /// When the depth-averaged water velocity at the wavemaker first reaches this value times its maximum [-].
     AtShare(f64),
 }
 
@@ -242,10 +242,11 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
     }
     let layers = (width / file.dp_m).round().max(1.0);
     let stretch = width / layers / file.dp_m;
-    // If the two spacings differ by more than a few per cent, the density of water at rest drifts.
+    // If the spacings along and across the flume differ by more than a few per cent, the density of still water drifts.
     if (stretch - 1.0).abs() > 0.03 {
         check.warn(format!(
-            "domain.width_m = {} is {:.2} particle spacings: the spacing across the flume becomes {:.3} dp",
+            "domain.width_m = {} is {:.2} particle spacings: the spacing across the flume becomes {:.3} dp_m; \
+             write a width that is a whole number of particle spacings",
             as_text(width),
             width / file.dp_m,
             stretch
@@ -303,7 +304,7 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
     }
     if depth < 10.0 * file.dp_m {
         check.warn(format!(
-            "domain.dp_m = {}: only {:.1} particle spacings over the largest depth, {} m",
+            "domain.dp_m = {}: only {:.1} particle spacings over the largest water depth, {} m; use at least 10",
             as_text(file.dp_m),
             depth / file.dp_m,
             as_text(depth)

@@ -3,8 +3,8 @@
 use crate::case::file::{DampingZoneFile, RelaxationZoneFile};
 use crate::case::reading::check::{Checker, as_text, more_than};
 
-/// Largest rate f at the end of a zone [1/s]. At this rate, the water stops within a millimetre; therefore the zone
-/// reflects waves like a wall.
+/// Largest rate f at the end of a zone [1/s]. At this rate, water with a velocity of 1 m/s stops within a millimetre,
+/// so the zone reflects waves like a wall.
 const LARGEST_COEFFICIENT: f64 = 1000.0;
 
 /// Zone in which the velocity v of the water decays, dv/dt = -f(x) v; SI units.

@@ -17,13 +17,13 @@ const BYTES_PER_PARTICLE: f64 = 600.0;
 pub struct Estimate {
     /// Number of water particles.
     pub fluid: f64,
-    /// Number of particles in bed, walls and wavemaker.
+    /// Number of particles in bed, walls, wavemaker and obstacles.
     pub boundary: f64,
     /// Number of particles in the armour units.
     pub units: f64,
     /// Memory that the run needs [bytes].
     pub bytes: f64,
-    /// Time step [s]: the smaller of cfl h / c0 (speed of sound) and, for laminar models, the limit of the viscosity.
+    /// Time step [s]: cfl h / c0 with the speed of sound c0, or the viscous limit of laminar models if it is smaller.
     pub dt: f64,
     /// Number of time steps of the whole run.
     pub steps: f64,
@@ -45,8 +45,8 @@ impl Case {
         }
     }
 
-    /// Returns the volume of the initial water inside a box over the volume of all initial water [-]. The argument has
-    /// the lower and the upper corner of the box.
+    /// Returns the volume of the initial water inside a box over the volume of all initial water [-]. `[low, high]` are
+    /// the lower and the upper corner of the box [m].
     pub fn share_of_water_in(&self, [low, high]: [[f64; 3]; 2]) -> f64 {
         let (profile, (x, top)) = (&self.flume.profile, self.water_at_start());
         let overlap = |[a0, a1]: [f64; 2], [b0, b1]: [f64; 2]| [a0.max(b0), a1.min(b1).max(a0.max(b0))];

@@ -42,8 +42,8 @@ pub struct Case {
     pub name: String,
     /// Hash of the case, 32 hexadecimal digits, independent of the layout of the file.
     pub hash: String,
-    /// Hash of all keys except [`Self::KEYS_FREE_AT_START`]. Two runs with the same hash have the same state until
-    /// their units move.
+    /// Hash of all keys except [`Self::KEYS_FREE_AT_START`]. Two runs with the same `start_hash` have the same
+    /// state until their units move.
     pub start_hash: String,
     /// Text of the case file that the run writes into its folder.
     pub text: String,
@@ -80,8 +80,9 @@ pub struct Case {
 }
 
 impl Case {
-    /// Keys that may differ between a run and the other run from whose checkpoint it starts. These keys do not affect
-    /// units at rest. The duration must be the same, because the wavemaker's motion is prepared for this duration.
+    /// Keys that may differ between two runs of which one starts from a checkpoint of the other. These keys have no
+    /// effect before the units move. `stop.duration_s` must be the same, because the wavemaker's motion is prepared for
+    /// this duration.
     pub const KEYS_FREE_AT_START: [&str; 5] = ["title", "assumptions", "reference", "friction", "stop.at_rest"];
 
     /// Reads and validates a case file.

@@ -12,14 +12,14 @@ pub struct Fluid {
     pub gravity: f64,
     /// Exponent of Tait's equation of state [-].
     pub gamma: f64,
-    /// Speed of sound c0 = factor sqrt(g d) [m/s], where d is the largest initial water depth in the domain.
+    /// Speed of sound c0 = `fluid.sound_speed_factor` sqrt(g d) [m/s] with the largest initial water depth d.
     pub sound_speed: f64,
 }
 
 /// Settings of the SPH scheme; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Numerics {
-    /// Smoothing length h = factor sqrt(3) dp [m]; the kernel radius is 2h.
+    /// Smoothing length h = `smoothing_factor` sqrt(3) dp [m]; the kernel radius is 2h.
     pub h: f64,
     /// Viscosity model.
     pub viscosity: Viscosity,
@@ -39,7 +39,7 @@ pub struct Numerics {
     pub boundary: Boundary,
     /// Velocity condition at bed and walls.
     pub wall_slip: WallSlip,
-    /// true: free slip at the units, too; false: no slip at the units.
+    /// true: free slip at the units, too. false: boundary particles of a unit have the tangential velocity of the unit.
     pub slip_on_units: bool,
     /// true if water pressure also acts on units in gaps that are too narrow for water particles.
     pub gap_pressure: bool,
@@ -64,14 +64,14 @@ pub fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker)
         file.gravity_m_s2,
         at_least(0.01).up_to(1000.0),
         "m/s2",
-        "write a positive number, 9.81 on earth; gravity acts downwards",
+        "write a positive number, 9.81 on Earth; gravity acts downwards",
     );
     check.number(
         "fluid.sound_speed_factor",
         file.sound_speed_factor,
         at_least(5.0).up_to(200.0),
         "",
-        "10 to 20 keeps density changes below about 1 %; larger values shorten the time step",
+        "values from 10 to 20 keep density changes below about 1 %; larger values need shorter time steps",
     );
     check.number("fluid.tait_exponent", file.tait_exponent, at_least(1.0).up_to(10.0), "", "water has 7");
     if check.count() > before {
@@ -90,7 +90,7 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         file.smoothing_factor,
         at_least(0.8).up_to(2.5),
         "",
-        "h = factor sqrt(3) dp; 1.2 is usual",
+        "h = smoothing_factor sqrt(3) dp; 1.2 is usual",
     );
     check.number(
         "numerics.viscosity_alpha",
@@ -115,11 +115,12 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
     );
     let wall_slip = validate_slip(file, check);
     check.number("numerics.diffusion_delta", file.diffusion_delta, at_least(0.0).up_to(1.0), "", "0.1 is usual");
-    check.number("numerics.cfl", file.cfl, at_least(0.001).up_to(0.5), "", "0.2 is usual; larger values are unstable");
+    let advice = "0.2 is usual; larger values can be unstable";
+    check.number("numerics.cfl", file.cfl, at_least(0.001).up_to(0.5), "", advice);
     refuse_unstable_diffusion(file, check);
     warn_of_ignored_constants(file, check);
     if !(1..=10).contains(&file.boundary_layers) {
-        check.reject("numerics.boundary_layers", file.boundary_layers, "1 to 10", "3 layers cover the kernel radius");
+        check.reject("numerics.boundary_layers", file.boundary_layers, "1 to 10", "3 layers are usual");
     }
     check.number(
         "numerics.hold_units_s",
@@ -132,12 +133,13 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         return None;
     }
     let h = file.smoothing_factor * 3f64.sqrt() * dp;
-    // The outer 30 % of the kernel radius contribute only a few per cent of the kernel's integral.
+    // The layers need not cover the outer 30 % of the kernel radius, because this part contributes only a few per
+    // cent of the kernel's integral.
     if f64::from(file.boundary_layers) * dp < 0.7 * 2.0 * h {
         check.warn(format!(
-            "numerics.boundary_layers = {}: the layers are thinner than the kernel radius, 2h = {:.3} m",
+            "numerics.boundary_layers = {}: the layers are thinner than {:.3} m, 70 % of the kernel radius 2h",
             file.boundary_layers,
-            2.0 * h
+            0.7 * 2.0 * h
         ));
     }
     Some(Numerics {
@@ -174,8 +176,9 @@ fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
 }
 
 /// Refuses unstable density diffusion. The shortest density wave decays at the rate lambda = 2 delta h c0
-/// sum_b V_b |G_ab|. It is at most 7 delta c0 / h, because the kernel's |G| integrates to 7 / (2 h^2). One time step
-/// dt = cfl h / c0 multiplies the wave by 1 - z + z^2 / 2 with z = lambda dt. This is unstable if z > 2.
+/// sum_b V_b |G_ab|, where G_ab r_ab is the kernel gradient. lambda is at most 7 delta c0 / h, because |G|
+/// integrates to 7 / (2 h^2). One time step dt = cfl h / c0 multiplies the amplitude of this wave by 1 - z + z^2 / 2
+/// with z = lambda dt. The wave grows if z > 2.
 fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
     let limit = 2.0 / (7.0 * file.cfl);
     if file.density_diffusion != DensityDiffusion::None && file.diffusion_delta <= 1.0 && file.diffusion_delta > limit {
@@ -221,7 +224,7 @@ fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
 mod tests {
     use super::*;
 
-    /// Changes the default settings and validates them. Returns true if they are accepted, and the warnings.
+    /// Changes the default settings and validates them. Returns whether they are accepted, and the warnings.
     fn warnings(change: impl FnOnce(&mut NumericsFile)) -> (bool, Vec<String>) {
         let mut file = NumericsFile::default();
         change(&mut file);

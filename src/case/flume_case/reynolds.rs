@@ -4,8 +4,9 @@ use super::Case;
 use crate::case::file::{Sides, Viscosity};
 use crate::case::reading::check::{Checker, as_text};
 
-/// Reynolds number of a unit below which `check` warns [-]. At 20 to 35, the force on a unit at rest is proportional to
-/// the velocity; at 80, it is not (docs/validation/fudo-notes.md). In real flumes the Reynolds number is 1e4 and more.
+/// Reynolds number of a unit below which the validation gives a warning [-]. At Reynolds numbers from 20 to 35, the
+/// force on a unit at rest is proportional to the velocity of the water. At 80, the force is not proportional to it
+/// (docs/validation/fudo-notes.md). In real flumes the Reynolds number is 1e4 or more.
 const LEAST_REYNOLDS: f64 = 50.0;
 /// Kinematic viscosity of water at 20 degrees [m2/s].
 const WATER_VISCOSITY: f64 = 1e-6;
@@ -40,10 +41,10 @@ pub fn warn(case: &Case, check: &mut Checker) {
         (reynolds_number(case).filter(|re| *re < LEAST_REYNOLDS), artificial_viscosity(case))
     {
         check.warn(format!(
-            "numerics.viscosity_alpha = {}: makes the water {:.0} times as viscous as real water (Reynolds number \
-             of a unit {reynolds:.0}). Below {LEAST_REYNOLDS}, the drag grows with the velocity instead of its \
-             square, so strong waves exert too little force compared with weak waves. Lower viscosity_alpha or \
-             `domain.dp_m`",
+            "numerics.viscosity_alpha = {}: the water is {:.0} times as viscous as real water, and the Reynolds number \
+             of a unit is {reynolds:.0}. At Reynolds numbers below {LEAST_REYNOLDS}, the drag is proportional to the \
+             velocity instead of its square, so strong waves exert too little force compared with weak waves. Lower \
+             viscosity_alpha or `domain.dp_m`",
             as_text(case.numerics.alpha),
             nu / WATER_VISCOSITY,
         ));
@@ -68,8 +69,8 @@ mod tests {
 
     #[test]
     fn reynolds_number_uses_the_wave_over_the_mound() {
-        // nu = 0.04 h c0 / 10 with h = 1.2 sqrt(3) 7 mm and c0 = 10 sqrt(g 0.217 m), the depth at x = 36.5 m. The depth
-        // at the units, which are 77 mm high, is 83 mm.
+        // nu = 0.04 h c0 / 10 with h = 1.2 sqrt(3) 7 mm and c0 = 10 sqrt(g 0.217 m): the depth at x = 36.5 m is
+        // 0.217 m. At the units, which are 77 mm high, the depth is 83 mm.
         let depth: f64 = 0.8 - 17.5 / 30.0;
         let nu = 0.004 * 1.2 * 3.0_f64.sqrt() * 0.007 * 10.0 * (9.81 * depth).sqrt();
         let expected = 0.026 * (9.81_f64 / 0.083).sqrt() * 0.077 / nu;

@@ -19,7 +19,7 @@ use crate::case::units::{self, Surroundings, Units, WaterAround};
 use crate::case::wave::wavemaker::{self, Wavemaker};
 use crate::case::wave::{self, Wave};
 
-/// Number of particles above which `check` warns.
+/// Number of particles above which the validation gives a warning.
 const MANY_PARTICLES: f64 = 50e6;
 /// Largest number of particles.
 const MOST_PARTICLES: f64 = 1e9;

@@ -91,7 +91,7 @@ fn loaded_faces(
             &format!("{path}.place_m"),
             format!("{place_m:?}"),
             format!(
-                "at most {} m from the surface of {name:?} (the face length or the radius); it is {} m away",
+                "at most {} m from the surface of {name:?}, the larger of face edge and radius; it is {} m away",
                 as_text(farthest),
                 as_text(near.distance)
             ),

@@ -46,7 +46,7 @@ pub struct FractureCase {
     pub setup: Setup,
     /// Time step over the longest stable time step [-].
     pub step_share: f64,
-    /// Upper limit of the time step [s], if the case has one.
+    /// Time step that the case gives [s]; `None` if `step_share` determines the time step.
     pub dt: Option<f64>,
     /// Landmarks: boxes with names, for the report.
     pub landmarks: Vec<Landmark>,
@@ -126,7 +126,7 @@ fn validate(file: &FractureFile, document: &Document, check: &mut Checker) -> Op
 
 fn validate_numbers(file: &FractureFile, check: &mut Checker) {
     let method = &file.fracture;
-    let advice = "1 makes a contact eight times as stiff as the tetrahedron behind it";
+    let advice = "with 1, a contact is eight times as stiff as the tetrahedron behind it";
     check.number("fracture.contact_penalty", method.contact_penalty, at_least(1e-3).up_to(1e3), "", advice);
     check.number(
         "fracture.step_share",
@@ -146,7 +146,8 @@ fn validate_numbers(file: &FractureFile, check: &mut Checker) {
     }
     if let Some(dt) = method.dt_s {
         let shortest = at_least(file.stop.duration_s.max(0.0) / MOST_STEPS);
-        check.number("fracture.dt_s", dt, shortest.up_to(1.0), "s", "leave it out for the longest stable time step");
+        let advice = "leave it out: step_share then determines the time step";
+        check.number("fracture.dt_s", dt, shortest.up_to(1.0), "s", advice);
     }
     for (axis, g) in file.gravity_m_s2.into_iter().enumerate() {
         check.number(&format!("gravity_m_s2[{axis}]"), g, at_least(-1e3).up_to(1e3), "m/s2", "[0, 0, -9.8] on Earth");
@@ -178,8 +179,8 @@ fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Ve
     }
 }
 
-/// Warns if the mean edge of the elements is longer than a quarter of the characteristic length. Such elements do not
-/// resolve cracks.
+/// Warns if the mean edge of the elements is longer than a quarter of the characteristic length, E G_f / f_t^2 for
+/// opening cracks, E G_fII / c^2 for shear cracks. Such elements do not resolve these cracks.
 fn warn_of_coarse_mesh(setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) {
     for (body, quality) in setup.bodies.iter().zip(&mesh.quality) {
         if let Some(warning) = quality.warning() {
@@ -204,7 +205,10 @@ fn warn_of_coarse_mesh(setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) 
             check.reject(
                 "fracture.joint_penalty",
                 as_text(cohesion.penalty / body.elastic.young_modulus),
-                format!("so large that joints with edges of {} m store less than G_f", as_text(quality.edge_max)),
+                format!(
+                    "so large that joints with edges of {} m absorb less than G_f before the peak stress",
+                    as_text(quality.edge_max)
+                ),
                 "refine the mesh, raise the joint penalty or use \"joints\": \"tied\"",
             );
         }

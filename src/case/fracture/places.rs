@@ -81,7 +81,7 @@ pub fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, check: &
     let advice = "[0, 1, 0] gives a plane along x and z";
     check.number("output.section.normal (its length)", normal.length(), more_than(0.0).up_to(1e6), "", advice);
     for (axis, value) in given.point_m.into_iter().enumerate() {
-        let advice = "write a point inside a body";
+        let advice = "write a point of the undeformed mesh inside a body";
         check.number(&format!("output.section.point_m[{axis}]"), value, at_least(-1e4).up_to(1e4), "m", advice);
     }
     Plane { point: DVec3::from_array(given.point_m), normal: normal.normalize_or(DVec3::Y) }

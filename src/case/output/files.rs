@@ -70,7 +70,7 @@ fn validate_fields(fields: &[FluidField], check: &mut Checker) {
                 &format!("output.fluid_fields[{index}]"),
                 format!("{:?}", field.name()),
                 "different from the fields before it",
-                "remove one of the two",
+                "remove one of the two equal fields",
             );
         }
     }
@@ -83,10 +83,10 @@ fn validate_box([low, high]: [[f64; 3]; 2], domain: &Domain, check: &mut Checker
     for (axis, (name, domain)) in ranges.into_iter().enumerate() {
         if high[axis] <= low[axis] {
             let path = format!("output.fluid_box_m[1][{axis}]");
-            let advice = "write the lower corner first, then the upper one";
+            let advice = "write the lower corner first, then the upper corner";
             check.reject(&path, as_text(high[axis]), format!("> {} m, the lower {name}", as_text(low[axis])), advice);
         } else if high[axis] <= domain[0] || low[axis] >= domain[1] {
-            let advice = "move the box to the water, or remove it to write all water";
+            let advice = "move the box into the domain, or remove the key to write all water particles";
             let value = format!("{name} from {} to {}", as_text(low[axis]), as_text(high[axis]));
             let allowed =
                 format!("at least partly inside the domain, {} to {} m", as_text(domain[0]), as_text(domain[1]));

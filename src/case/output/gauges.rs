@@ -22,7 +22,8 @@ pub struct Gauge {
     pub at: [f64; 3],
     /// Motion of the gauge.
     pub motion: Motion,
-    /// true if the gauge is inside the particle domain. Outside the domain, only the flume model writes values for it.
+    /// true if the gauge is inside the particle domain. Outside the domain, only the flume model writes values for the
+    /// gauge.
     pub in_domain: bool,
 }
 
@@ -171,7 +172,8 @@ fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain,
     let [x, y, z] = point.at_m;
     check_inside(&format!("{path}.at_m[0]"), x, domain.x, "the domain", check);
     check_inside(&format!("{path}.at_m[1]"), y, y_range(domain), "the domain's width", check);
-    check_inside(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], "the walls' height", check);
+    let range = "the range from the bed to the top of the walls";
+    check_inside(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], range, check);
     if let Some(obstacle) = domain.obstacles.iter().position(|obstacle| obstacle.contains(point.at_m.into())) {
         check.reject(
             &format!("{path}.at_m"),
@@ -200,7 +202,7 @@ fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Chec
             if unit == 0 || unit as usize > units {
                 let allowed =
                     if units == 0 { "left out: there are no units".to_owned() } else { format!("1 to {units}") };
-                check.reject(&format!("{path}.on_unit"), unit, allowed, "units are numbered from 1, as in the tables");
+                check.reject(&format!("{path}.on_unit"), unit, allowed, "units are numbered from 1, as in units.csv");
             }
             if !point.way.is_empty() {
                 let advice = "a gauge moves either with a unit or along a path";

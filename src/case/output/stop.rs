@@ -41,7 +41,7 @@ pub fn validate(file: &StopFile, has_units: bool, check: &mut Checker) -> Stop {
             rest.speed_m_s,
             more_than(0.0).up_to(1.0),
             "m/s",
-            "a unit slower than this is at rest, e.g. 0.002",
+            "a unit that is slower than this speed counts as at rest; write e.g. 0.002",
         );
         if is_duration_valid {
             let end = as_text(file.duration_s);

@@ -31,7 +31,7 @@ impl Checker {
         });
     }
 
-    /// Returns true if `value` is within `range`. Otherwise it adds an error. `unit` may be empty.
+    /// Returns true if `value` is within `range`. Otherwise adds an error and returns false. `unit` may be empty.
     pub fn number(&mut self, path: &str, value: f64, range: Range, unit: &str, advice: &str) -> bool {
         let inside = range.contains(value);
         if !inside {

@@ -11,7 +11,7 @@ use super::check::Checker;
 use super::error::{CaseError, CaseErrors};
 use super::parse::{RENAMED_KEYS, parse, syntax_error};
 
-/// Largest input file [bytes].
+/// Largest allowed size of an input file [bytes].
 const LARGEST_FILE: u64 = 16 << 20;
 
 /// Kind of an input file.
@@ -84,7 +84,7 @@ impl Document {
         Ok(Self { name, text, keys })
     }
 
-    /// Returns the kind of the file. A file that has no keys of the other kinds counts as a flume case.
+    /// Returns the kind of the file. A file without a key of another kind counts as a flume case.
     pub fn kind(&self) -> InputKind {
         let has = |key: &str| self.has(key);
         let has_flume = has("flume") || has("domain");
@@ -103,7 +103,7 @@ impl Document {
         self.keys.iter().any(|found| found == key)
     }
 
-    /// Parses the file into a struct of `file`, which checks keys and types.
+    /// Parses the file into a struct of the module `case::file`. This checks keys and types.
     ///
     /// # Errors
     /// If a key is unknown or missing, or a value has the wrong type.
@@ -111,8 +111,9 @@ impl Document {
         parse(without_mark(&self.text), &self.name)
     }
 
-    /// Returns the case text that a run stores. It is the user's own text if `file`, the parsed case, equals `kept`,
-    /// the case as the run stores it. Otherwise it is `kept` as JSON.
+    /// Returns the text of the case file that a run stores. `file` is the parsed case. `kept` is the same case with
+    /// paths that are valid in the run folder. If both are equal, the text is the user's own text. Otherwise it is
+    /// `kept` as JSON.
     pub(in crate::case) fn stored_text<F: PartialEq + Serialize>(&self, file: &F, kept: &F) -> String {
         // Writing to memory cannot fail, because every key is a string.
         if kept == file { self.text.clone() } else { serde_json::to_string_pretty(kept).unwrap_or_default() }
@@ -136,7 +137,7 @@ impl Document {
     }
 }
 
-/// Returns the text without a leading byte order mark.
+/// Returns the text without the Unicode byte order mark that some editors write at its start.
 fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }

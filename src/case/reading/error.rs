@@ -83,9 +83,10 @@ impl From<CaseError> for CaseErrors {
     }
 }
 
-/// Returns the candidate with the smallest edit distance to `word`, if it is small enough for a typing error.
+/// Returns the candidate with the smallest edit distance to `word`; `None` if the distance is too large for a typing
+/// error.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // No key is longer than this, and the search would be slow.
+    // No key has more than 64 letters, and the search would be slow for long words.
     if word.len() > 64 {
         return None;
     }

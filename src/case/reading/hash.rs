@@ -4,8 +4,9 @@ use serde::Serialize;
 
 use super::parse::RENAMED_KEYS;
 
-/// Returns 32 hexadecimal digits: FNV-1a (128 bits) of the case with all defaults, and of `read`, the content of the
-/// files that the case refers to. White space and key order do not matter. `file` must not contain its `$schema`.
+/// Returns the hash FNV-1a (128 bits) of a case as 32 hexadecimal digits. The input of the hash is the parsed case
+/// `file` with its defaults, without the key `$schema`, and `read`, the content of the files that the case refers to.
+/// White space and key order in the case file do not matter.
 pub fn fingerprint(file: &impl Serialize, read: &[u8]) -> String {
     // The structs fix the order of the keys. Serializing to a string cannot fail: every key is a string.
     let canonical = serde_json::to_string(file).unwrap_or_default();

@@ -12,7 +12,7 @@ use crate::case::file::{
 /// Renamed top-level keys: old name, new name. Flume cases and dry tests may still use the old names.
 pub(super) const RENAMED_KEYS: [(&str, &str); 2] = [("fracture", "breakage"), ("dry", "dry_test")];
 
-/// Parses valid JSON into a struct of `file`; `name` is the file name in messages.
+/// Parses valid JSON into a struct of the module `case::file`; `name` is the file name in messages.
 pub(super) fn parse<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, CaseError> {
     let mut reader = serde_json::Deserializer::from_str(text);
     serde_path_to_error::deserialize::<_, T>(&mut reader).map_err(|error| {
@@ -59,8 +59,9 @@ fn without_position(error: &serde_json::Error) -> String {
     message.strip_suffix(&position).unwrap_or(&message).to_owned()
 }
 
-/// Returns the path of the wrong key inside an object with `kind`, and the problem. The parser reads such objects in
-/// two steps and reports only the path of the object. Therefore the object is parsed again as the struct of its kind.
+/// Returns the path of the wrong key inside an object with the key `kind`, and the problem. The parser reads such
+/// objects in two steps and reports only the path of the object. Therefore this function parses the object again as the
+/// struct of its kind.
 fn locate_inside_kind(text: &str, path: &str) -> Option<(String, String)> {
     let root: Value = serde_json::from_str(text).ok()?;
     let pointer = format!("/{}", path.replace(['.', '['], "/").replace(']', ""));

@@ -247,7 +247,7 @@ fn read_table(
             Ok(row) if row.len() == names.len() => rows.push(row),
             _ => {
                 let allowed = format!("a table of numbers: line {} is not {} numbers", number + 1, names.len());
-                return refuse(allowed, "separate numbers by commas, with a decimal point");
+                return refuse(allowed, "separate the numbers by commas and write decimals with a point: 0.5, 1.2");
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::case::file::{FrictionFile, MaterialFile};
 use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::case::reading::error::nearest;
 
-const RESTITUTION_ADVICE: &str = "1 keeps the speed in a collision, 0.5 halves it";
+const RESTITUTION_ADVICE: &str = "with 1, a collision keeps the normal speed; with 0.5, it halves this speed";
 
 /// Largest number of materials in one case.
 const MOST_MATERIALS: usize = 100;
@@ -35,7 +35,7 @@ pub struct FrictionPair {
     pub kinetic: f64,
     /// Rolling resistance coefficient [-]; 0 for none.
     pub rolling: f64,
-    /// Coefficient of restitution [-]; `None` for the smaller of the two materials' values.
+    /// Coefficient of restitution [-]; `None` if the smaller of the values of the two materials applies.
     pub restitution: Option<f64>,
 }
 
@@ -93,7 +93,7 @@ fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> Vec<Materia
         );
         check.number(&path("restitution"), material.restitution, more_than(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
         if let Some(stiffness) = material.contact_stiffness_n_m {
-            let advice = "write contact force over overlap of two bodies in contact";
+            let advice = "write the contact force divided by the overlap of two bodies in contact";
             check.number(&path("contact_stiffness_n_m"), stiffness, at_least(1.0).up_to(1e12), "N/m", advice);
         }
     }
@@ -155,7 +155,10 @@ fn validate_friction(file: &[FrictionFile], materials: &[Material], check: &mut 
             check.reject(
                 &format!("friction[{index}].between"),
                 format!("{:?}", friction.between),
-                format!("a pair that is listed only once (its first entry has {})", as_text(other.coefficient)),
+                format!(
+                    "a pair that is listed only once (its first entry has the coefficient {})",
+                    as_text(other.coefficient)
+                ),
                 "keep one of the two entries",
             );
             continue;
@@ -174,7 +177,7 @@ fn validate_pair(index: usize, file: &FrictionFile, check: &mut Checker) -> f64 
     let advice = "kinetic friction must not exceed static friction";
     check.number(&path("kinetic_coefficient"), kinetic, at_least(0.0).up_to(file.coefficient.max(0.0)), "", advice);
     if let Some(rolling) = file.rolling_coefficient {
-        let advice = "the tangent of the slope at which a ball begins to roll";
+        let advice = "write the tangent of the slope angle at which a ball begins to roll";
         check.number(&path("rolling_coefficient"), rolling, at_least(0.0).up_to(2.0), "", advice);
     }
     if let Some(restitution) = file.restitution {

@@ -60,8 +60,8 @@ impl Units {
         if let UnitKind::Stl(unit) = &self.shape.kind { unit.files() } else { &[] }
     }
 
-    /// Changes the entry `units` of a stored case: it refers to [`Self::files`], and poses replace the placement file.
-    /// Adds the content of the files to `read`, for the hash of the case.
+    /// Changes the entry `units` of a stored case: the entry then refers to [`Self::files`], and has poses instead of a
+    /// placement file. Adds the content of the files to `read`, for the hash of the case.
     pub(super) fn make_self_contained(&self, file: &mut UnitsFile, read: &mut Vec<u8>) {
         if let UnitKind::Stl(unit) = &self.shape.kind {
             file.stl = Some(unit.entry());
@@ -82,7 +82,7 @@ pub(super) struct Surroundings<'a> {
     /// Ground and boundaries of the area in which units stand; `None` if invalid.
     pub site: Option<&'a Site>,
     pub materials: &'a Materials,
-    /// true if the file names a material of the ground, even an invalid one.
+    /// true if the case file names a material of the ground, even if this name is not in `materials`.
     pub ground_named: bool,
     pub contact: Contact,
     /// Water around the units; `None` in a dry test.
@@ -152,7 +152,8 @@ pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: 
     })
 }
 
-/// Places the units in a row, by their centres or by their poses. Returns `None` if errors in the file prevent this.
+/// Places the units in a row, at their centres or in their poses. Returns `None` if the case file has errors that
+/// prevent the placement.
 fn place(
     file: &UnitsFile,
     shape: Option<&UnitShape>,
@@ -203,7 +204,7 @@ fn validate_water(water: &WaterAround, shape: &UnitShape, check: &mut Checker) {
     }
     if shape.height() < 8.0 * water.dp {
         check.warn(format!(
-            "domain.dp_m = {}: a unit is {:.1} particles high; with fewer than 8 the forces on it are inaccurate",
+            "domain.dp_m = {}: a unit is {:.1} particles high; with fewer than 8, the water forces are inaccurate",
             as_text(water.dp),
             shape.height() / water.dp
         ));

@@ -11,10 +11,11 @@ use crate::case::file::{Sides, UnitsFile};
 use crate::case::flume::site::Site;
 use crate::case::reading::check::{Checker, as_text};
 
-/// Largest quaternion component of a rotation about x or z [-]. It allows for rounding to six digits in the file.
+/// Largest allowed size of the x and z components of the quaternion of a unit [-]. The limit allows for rounding to six
+/// digits in the case file.
 const ROUNDING: f64 = 1e-6;
 
-/// Refuses units whose outline changes across the flume. Refuses rows, which have several units across the flume.
+/// Refuses units that are not cuboids. Refuses rows, because a row has several units across the flume.
 pub fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check: &mut Checker) {
     if !matches!(shape.kind, UnitKind::Cuboid { .. }) {
         check.reject(
@@ -42,8 +43,8 @@ pub fn lay(placements: Vec<UnitPose>, site: &Site, check: &mut Checker) -> Vec<U
         if out_of_plane > ROUNDING {
             check.reject(
                 &format!("units.poses[{index}].quaternion_xyzw"),
-                format!("turned out of the plane by {}", as_text(out_of_plane)),
-                "a turn about y where `domain.sides` is \"two_dimensional\", [0, y, 0, w]",
+                format!("x and z components of size {}", as_text(out_of_plane)),
+                "a rotation about y, [0, y, 0, w], where `domain.sides` is \"two_dimensional\"",
                 "rotate the unit only about y, or write \"periodic\" or \"walls\"",
             );
         }

@@ -93,7 +93,7 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Un
             advice,
         );
     }
-    // Quaternions of exact length are not normalized again, so that the poses of a stored case keep their bits.
+    // Quaternions of length 1 are not normalized again, so that a resumed run has exactly the same poses.
     let is_exact = (length - 1.0).abs() < 1e-15;
     UnitPose { centre, rotation: if is_exact { rotation } else { rotation.normalize() } }
 }

@@ -31,7 +31,8 @@ pub(super) fn validate(material: Option<usize>, around: &Surroundings, check: &m
                 );
             }
         }
-        // Springs in series: the stiffness of one body is twice that of a contact between two bodies of its material.
+        // A contact is two springs in series, one for each body. The measured contact has two bodies of the same
+        // material, so the spring of each body is twice as stiff as the measured contact.
         let stiffness = a.contact_stiffness.zip(b.contact_stiffness).map(|(a, b)| 2.0 * a * b / (a + b));
         found.map(|pair| Resistance {
             static_friction: pair.coefficient,

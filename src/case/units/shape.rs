@@ -9,8 +9,8 @@ use crate::case::file::{Shape, UnitsFile};
 use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::geometry::armour_unit::{ArmourUnit, ArmourUnitError};
 
-/// Largest allowed ratio of the longest to the shortest edge of a cuboid [-]. The contact rounding is proportional to
-/// the height and must fit all edges.
+/// Largest allowed ratio of the longest to the shortest edge of a cuboid [-]. The rounding radius of the edges is
+/// proportional to the height, and must be small compared with the shortest edge.
 const LARGEST_EDGE_RATIO: f64 = 5.0;
 
 /// Kind and dimensions of a unit; SI units.
@@ -243,7 +243,8 @@ fn check_length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bo
     check.number(path, value, at_least(0.005).up_to(20.0), "m", advice)
 }
 
-/// Validates the mass of a unit [kg] by means of its volume. `rho0` is the water density [kg/m3]; `None` without water.
+/// Validates the mass of a unit [kg]: its density must be between 100 and 20,000 kg/m3. `rho0` is the water density
+/// [kg/m3]; `None` without water.
 pub fn validate_mass(mass: f64, shape: &UnitShape, rho0: Option<f64>, check: &mut Checker) {
     let volume = shape.volume();
     let range = more_than(100.0 * volume).up_to(20_000.0 * volume);

@@ -114,7 +114,7 @@ pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mu
         }
     }
     let found = if parts.is_empty() {
-        // Parts that are too thin for the rounding are removed. Their volume counts as error.
+        // Parts that are too thin for the rounding radius are removed. Their volume counts as part of `volume_error`.
         let [low, high] = solid.bounds();
         let thinnest = rounding_share * (high.z - low.z) / LARGEST_ROUNDING;
         let mut found = decomposition::decompose(&solid);

@@ -54,9 +54,9 @@ pub fn validate(
     check: &mut Checker,
 ) -> Option<ExternalWave> {
     if let Some(celerity) = file.celerity_m_s {
-        // The fastest wave is a solitary wave at breaking, sqrt(1.8 g d); the factor 2 allows for currents.
+        // The fastest wave is a breaking solitary wave, sqrt(1.8 g d); the factor 2 in the limit allows for currents.
         let fastest = 2.0 * (1.8 * gravity * flume.still_depth(domain.x[0])).sqrt();
-        let advice = "a long wave travels at sqrt(g (d + H))";
+        let advice = "a solitary wave of height H in the depth d has the celerity sqrt(g (d + H))";
         check.number("wave.celerity_m_s", celerity, more_than(0.0).up_to(fastest), "m/s", advice);
     }
     let x0 = domain.x[0];

@@ -35,10 +35,12 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
     match wave {
         Wave::None | Wave::External(_) => {}
         Wave::Solitary(wave) if wavemaker.is_ml_piston() => {
-            validate_distance("the stroke of the flume's piston", flume.ends()[0] + wave.stroke_m(), domain, check);
+            let nearest = flume.ends()[0] + wave.stroke_m();
+            validate_distance("shoreward of the stroke of the flume's piston", nearest, domain, check);
         }
         _ if wavemaker.is_ml_piston() => {
-            validate_distance("one depth from the inflow", flume.ends()[0] + flume.offshore_depth(), domain, check);
+            let nearest = flume.ends()[0] + flume.offshore_depth();
+            validate_distance("more than one water depth from the inflow", nearest, domain, check);
         }
         Wave::SolitaryInflow(_) | Wave::Irregular { .. } => {}
         Wave::Solitary(wave) => {
@@ -71,8 +73,8 @@ fn validate_distance(limit: &str, nearest: f64, domain: &Domain, check: &mut Che
         check.reject(
             "domain.x_m[0]",
             as_text(domain.x[0]),
-            format!("beyond {limit}, > {} m", as_text(nearest)),
-            "move the seaward end of the domain shoreward; the flume model carries the wave there",
+            format!("{limit}, > {} m", as_text(nearest)),
+            "move the seaward end of the domain shoreward; the flume model computes the wave up to this end",
         );
     }
 }
@@ -84,7 +86,7 @@ fn validate_sweep(stroke: f64, height: f64, domain: &Domain, check: &mut Checker
             "wave.height_m",
             as_text(height),
             format!(
-                "such that the stroke of the paddle, {} m, is at most half of the domain's length, {} m",
+                "such that the stroke of the paddle, {} m, is at most {} m, half of the length of the domain",
                 as_text(stroke),
                 as_text(most)
             ),

@@ -65,7 +65,7 @@ pub(super) fn regular(file: &RegularFile, around: &Surroundings, check: &mut Che
             "wave.period_s",
             as_text(period_s),
             format!("such that the wavelength is at least {} m, depth / 10", as_text(SHORTEST_LENGTH * depth)),
-            "shorter waves move only the surface layer: write a longer period or make the domain shallower",
+            "shorter waves move only the surface layer: write a longer period or a smaller water depth",
         );
         return None;
     }
@@ -87,13 +87,14 @@ pub(super) fn irregular(file: &IrregularFile, around: &Surroundings, check: &mut
     let before = check.count();
     let period = "write the peak period of the spectrum in seconds";
     check.number("wave.peak_period_s", file.peak_period_s, at_least(0.01).up_to(1e4), "s", period);
-    check.number("wave.peak_enhancement", file.peak_enhancement, at_least(1.0).up_to(10.0), "", "3.3 is the average");
-    // The model has at most 5,000 wave components, which are enough for 2000 periods.
+    let mean = "3.3 is the mean of the JONSWAP spectra";
+    check.number("wave.peak_enhancement", file.peak_enhancement, at_least(1.0).up_to(10.0), "", mean);
+    // An irregular wave has at most 5,000 components; 2000 periods need 4,800 components.
     let repeat = "with 200, the waves repeat after 200 peak periods";
     check.number("wave.repeat_periods", file.repeat_periods, at_least(20.0).up_to(2000.0), "", repeat);
     validate_ramp(file.ramp_periods, check);
     let depth = around.wet_depth(check)?;
-    // The highest of 3,000 waves is twice as high, about 0.8 d. A solitary wave of this height breaks.
+    // The highest of 3,000 waves is twice as high as H_s, at most 0.8 d. A solitary wave of 0.8 d breaks.
     let height = format!("the limit is 0.4 times the depth, {} m", as_text(depth));
     check.number(
         "wave.significant_height_m",
@@ -128,6 +129,6 @@ fn refuse_impossible(error: Option<WaveError>, path: &str, value: f64, check: &m
 }
 
 fn validate_ramp(ramp_periods: f64, check: &mut Checker) {
-    let advice = "with 2 periods, the waves start smoothly";
+    let advice = "with a ramp of 2 periods, the waves start smoothly";
     check.number("wave.ramp_periods", ramp_periods, at_least(0.5).up_to(100.0), "", advice);
 }

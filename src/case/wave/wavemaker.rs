@@ -107,7 +107,7 @@ pub fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flume>, ch
                 flap.hinge_z_m,
                 at_least(-FURTHEST_HINGE).below(highest),
                 "m",
-                "write a z coordinate as in `flume.bed_m`, below the still water level; most hinges are at the bed",
+                "write a z coordinate as in `flume.bed_m`, below the still water level; a hinge at the bed is usual",
             );
             Wavemaker::Flap { hinge_z: flap.hinge_z_m }
         }

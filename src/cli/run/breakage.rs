@@ -26,8 +26,9 @@ use crate::{
 /// Do the units break? Re-run the hardest impacts of a finished run at prototype scale, with units that deform and
 /// crack.
 ///
-/// The key `breakage` of the case has the settings. `run` makes this analysis at its end. This command continues an
-/// interrupted analysis, or repeats the analysis after a change of `breakage` in the run's case.json.
+/// The key `breakage` of the case has the settings. If the case has this key, `breakwater run` makes the analysis at
+/// the end of the run. This command continues an interrupted analysis, or repeats the analysis after you have changed
+/// `breakage` in the file case.json of the run.
 #[derive(Args)]
 pub struct BreakageArguments {
     /// Folder of the run.
@@ -114,7 +115,7 @@ fn analyse(
     if failures.is_empty() { Ok(()) } else { Err(CommandError::failed(failures.join("\n"))) }
 }
 
-/// Largest number of units that are printed.
+/// Largest number of units whose results are printed to the terminal.
 const MOST_LINES: usize = 20;
 
 fn tell(breakage: &Breakage, dir: &Path) {

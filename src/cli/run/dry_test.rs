@@ -16,7 +16,7 @@ use crate::{
     },
 };
 
-/// Largest number of units whose motion is printed.
+/// Largest number of units whose motion is printed to the terminal.
 const MOST_LINES: usize = 20;
 
 /// Runs a dry test from its start, then the breakage analysis if the case has the key `breakage`.
@@ -26,7 +26,7 @@ pub(super) fn run_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -
     breakage::after_dry_test(case, &summary, dir, control)
 }
 
-/// Continues a dry test from its last checkpoint.
+/// Continues a dry test from its last checkpoint, then makes the breakage analysis if the case has the key `breakage`.
 pub(super) fn resume_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<(), CommandError> {
     introduce(case, dir, control.quiet);
     let summary = finish(resume(case.clone(), dir, control), dir)?;
@@ -63,7 +63,7 @@ fn finish(ended: Result<DryTestSummary, RunError>, dir: &Path) -> Result<DryTest
     for unit in summary.units.iter().take(MOST_LINES) {
         print!("  unit {:2}: moved {:.4} m, turned {:.1} degrees", unit.unit, unit.moved_m, unit.turned_deg);
         match (unit.slides_at_deg, unit.friction) {
-            (Some(angle), Some(friction)) => println!(", slides at {angle:.2} degrees (tangent {friction:.4})"),
+            (Some(angle), Some(friction)) => println!(", slides at {angle:.2} degrees, tangent {friction:.4}"),
             _ => println!(),
         }
     }

@@ -33,7 +33,7 @@ use crate::{
     sph::device::DeviceChoice,
 };
 
-/// Run a flume case or dry test; write tables, ParaView files and summary to one folder, for flume cases also a report.
+/// Run a flume case or dry test; write tables, ParaView files, summary and, for flume cases, a report to one folder.
 #[derive(Args)]
 pub struct RunArguments {
     /// The case file.
@@ -45,7 +45,8 @@ pub struct RunArguments {
     #[arg(long)]
     overwrite: bool,
     /// Begin at the last checkpoint of the run in this folder; default: begin at the start of the case. The cases of
-    /// both runs may differ only in friction and the rest criterion, and no unit may have moved before the checkpoint.
+    /// both runs may differ only in the keys `friction`, `stop.at_rest`, `title`, `assumptions` and `reference`. No
+    /// unit may have moved before the checkpoint.
     #[arg(long, value_name = "DIR")]
     from: Option<PathBuf>,
     #[command(flatten)]
@@ -78,7 +79,7 @@ impl RunArguments {
                 let options = RunOptions { device, control, until: None };
                 let start = match &self.from {
                     Some(from) if is_same_folder(from, &dir) => {
-                        let what = "is the folder of the results; give another one with --out";
+                        let what = "is the folder of the results; choose another folder with --out DIR";
                         return Err(CommandError::refused(format!("--from {}: {what}", from.display())));
                     }
                     Some(from) => Some(Start::at(Arc::clone(&case), from, &options).map_err(CommandError::refused)?),

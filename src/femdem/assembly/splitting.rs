@@ -114,8 +114,9 @@ fn lumped_mass(copies: &[NodeCopy], tets: &Tets, setup: &Setup) -> f64 {
     copies.iter().map(quarter).sum()
 }
 
-/// Splits the copies of a node into groups that tied faces connect. Copies and groups are in ascending order. In a body
-/// that cannot crack, all copies form one group.
+/// Splits the copies of a node into groups that tied faces connect. `tied` returns true for the number of a face that
+/// connects its two tetrahedra. Copies and groups are in ascending order. In a body that cannot crack, all copies form
+/// one group.
 pub fn connected_groups(
     tets: &Tets,
     setup: &Setup,
@@ -171,7 +172,8 @@ fn tied_neighbours<'a>(
     )
 }
 
-/// Splits the node at a corner of a face that is no longer tied, unless other tied faces still connect its copies.
+/// Splits the node at corner `corner` (0 to 2) of a face that is no longer tied. The node stays one if other tied faces
+/// still connect all its copies. `tied` returns true for the number of a tied interface.
 pub fn split(
     nodes: &mut Nodes,
     tets: &mut Tets,

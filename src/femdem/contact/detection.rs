@@ -45,8 +45,8 @@ const LEVELS: usize = 32;
 /// Cell size of the finest level over the median box size [-]. For meshes, detection is fastest with this value.
 const FINEST: f64 = 1.25;
 
-/// Returns the pairs (i, j), i < j, of intersecting boxes for which `keep(i, j)` is true. They are in ascending order for
-/// any number of threads. The boxes must be finite.
+/// Returns the pairs (i, j), i < j, of intersecting boxes for which `keep(i, j)` is true. They are in ascending order
+/// for any number of threads. The boxes must be finite.
 pub fn intersecting_pairs(boxes: &[Bounds], keep: impl Fn(u32, u32) -> bool + Sync) -> Vec<[u32; 2]> {
     let grids = Grids::new(boxes);
     let table = Table::new(&grids, boxes);
@@ -98,7 +98,7 @@ impl Table {
             end += *start;
             *start = end;
         }
-        // `starts` now has the end of each bucket. Filling each bucket backwards turns the ends into starts.
+        // `starts` now contains the end of each bucket. Filling each bucket backwards turns the ends into starts.
         for (number, own) in (0..).zip(boxes) {
             for key in grids.home_cells(own) {
                 let bucket = table.bucket(key);
@@ -144,7 +144,8 @@ impl Grids {
         let median = *median;
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         assert!(largest.is_finite(), "contact detection: a bounding box is not finite");
-        // The cells of the coarsest level must be as large as the largest box. Boxes of zero size fit into any cell.
+        // The cells of the coarsest level must be at least as large as the largest box. If all boxes have zero size,
+        // any cell size is suitable.
         let finest = (FINEST * median).max(largest / f64::from(1u32 << (LEVELS - 1)));
         grids.finest = if finest > 0.0 { finest } else { 1.0 };
         for own in boxes {
@@ -176,8 +177,9 @@ impl Grids {
         self.covered(own, level).map(move |cell| key(level, cell))
     }
 
-    /// Calls `found` for each pair of intersecting boxes that box `own_number` reports, with the lower number first. Of
-    /// two boxes, the box on the finer level reports the pair. On the same level, the box with the lower number does.
+    /// Calls `found` for each pair of intersecting boxes that box `own_number` reports, with the lower number first.
+    /// The box on the finer level reports the pair. If both boxes are on the same level, the box with the lower number
+    /// reports it.
     fn visit_pairs(&self, table: &Table, boxes: &[Bounds], own_number: u32, mut found: impl FnMut(u32, u32)) {
         let own = &boxes[own_number as usize];
         let own_level = self.level(own);
@@ -186,7 +188,8 @@ impl Grids {
                 for number in table.in_cell(key(level, cell)).filter(|number| level > own_level || *number > own_number)
                 {
                     let other = &boxes[number as usize];
-                    // Two boxes may share several cells. Only the cell with their lowest common point reports the pair.
+                    // Two boxes may share several cells. The pair is reported only for the cell with their lowest
+                    // common point.
                     if own.meets(other) && self.cell(own.low.max(other.low), level) == cell {
                         found(own_number.min(number), own_number.max(number));
                     }

@@ -1,8 +1,9 @@
 //! Friction between two overlapping tetrahedra T and C: a tangential spring with a history.
 //!
-//! F_t = -k_t d, |F_t| <= mu F_n: Cundall & Strack (1979), Geotechnique 29, 47-65; for FEMDEM Xiang, Latham & Farsi
-//! (2017), eqs. (4), (5). The extension d follows the slip at the point of action of the contact force and is capped by
-//! return mapping. F_n is the magnitude of the contact force; the tangential plane is normal to this force.
+//! The friction force on C is F_t = -k_t d, with |F_t| <= mu F_n: Cundall & Strack (1979), Geotechnique 29, 47-65; for
+//! FEMDEM Xiang, Latham & Farsi (2017), eqs. (4), (5). k_t is the tangential stiffness, mu the friction coefficient,
+//! and F_n the magnitude of the contact force. The extension d of the spring follows the slip at the point of action of
+//! the contact force. If k_t |d| exceeds mu F_n, d is shortened (return mapping). d is normal to the contact force.
 
 use glam::{DQuat, DVec3, DVec4};
 
@@ -51,9 +52,10 @@ impl TangentialSpring {
     /// `overlap` refer to the end of the time step. `moves` are the displacements of the vertices in the time step [m],
     /// and `penalty` is p [Pa].
     ///
-    /// Energy: the mean of the forces at start and end times the slip is -(change of [`Self::stored`]) - `dissipated`,
-    /// except for the rotation of the contact within the time step. If the spring force reverses within a time step,
-    /// the dissipation may be negative. It is then set to zero, and the energy balance has an error of the same amount.
+    /// Energy: the work of friction is the mean of the forces at start and end of the time step, times the slip. It
+    /// equals minus the change of [`Self::stored`] minus `dissipated`, if the contact does not rotate in the time step.
+    /// If the spring force reverses within a time step, the dissipation can be negative. It is then set to zero, and
+    /// the energy balance has an error of the same amount.
     pub fn advance(
         &mut self,
         law: &FrictionLaw,
@@ -76,7 +78,8 @@ impl TangentialSpring {
         friction
     }
 
-    /// Rotates the spring with the normal, and about the normal by `bodies`, the mean rotation of T and C [rad].
+    /// Rotates the spring with the contact normal. Then rotates it about the normal with the bodies: `bodies` is the
+    /// mean rotation vector of T and C [rad].
     fn turn(&mut self, normal: DVec3, bodies: DVec3) {
         let with_normal = DQuat::from_rotation_arc(self.normal, normal);
         let about_normal = DQuat::from_axis_angle(normal, bodies.dot(normal));
@@ -114,8 +117,8 @@ mod tests {
     const LAW: FrictionLaw = FrictionLaw { stiffness: 2e9, coefficient: 0.6 };
     const PENALTY: f64 = 1e9;
 
-    /// A large tetrahedron, and a small one on its top face: `depth` [m] deep in the face, moved by `along` [m] along
-    /// x.
+    /// Returns a large tetrahedron and a small one on its top face. The small one lies `depth` [m] deep in the face and
+    /// is moved by `along` [m] along x.
     fn tetrahedron_on_base(depth: f64, along: f64) -> [[DVec3; 4]; 2] {
         let base = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, -9.0]].map(DVec3::from_array);
         let corner = |angle: f64| DVec3::new(along + 0.5 * angle.cos(), 0.5 * angle.sin(), -depth);
@@ -158,7 +161,7 @@ mod tests {
         let mut spring = TangentialSpring::new(DVec3::Z);
         let (mut heat, mut work, mut force) = (0.0, 0.0, DVec3::ZERO);
         for _ in 0..10_000 {
-            // The limit of the force varies. The slip increments reach 0.7 of the slip at the lowest limit.
+            // The limit of the force varies. The slip increments are at most 0.7 of the extension at the lowest limit.
             let cap = 50.0 + 50.0 * random.next_share();
             let slip = (0.5 * 50.0 / LAW.stiffness) * random_point(&mut random).with_z(0.0);
             let released = spring.stretch(&LAW, slip, cap);
@@ -194,7 +197,7 @@ mod tests {
                 assert_eq!(friction.dissipated, 0.0);
             }
             let expected = DQuat::from_axis_angle(axis, 1.0) * (1e-6 * DVec3::X);
-            // Tolerance: 1e-3 of the extension, because each increment rotates by 1/2000 rad.
+            // Tolerance: 1e-3 of the extension of 1e-6 m, because each increment rotates by 1/2000 rad.
             assert!((spring.extension - expected).length() < 1e-9, "{} {expected}", spring.extension);
         }
     }
@@ -221,10 +224,11 @@ mod tests {
 
     #[test]
     fn a_sliding_block_stops_after_v2_over_2_mu_g() {
-        // 1 m/s, mu 0.6, g 9.8 m/s2: 0.0850 m. All vertices of the block move together, so it does not rotate.
+        // With v = 1 m/s, mu = 0.6 and g = 9.8 m/s2, the distance v^2 / (2 mu g) is 0.0850 m. All vertices of the block
+        // have the same velocity, so it does not rotate.
         let (mass, gravity, step) = (100.0, 9.8, 2e-5);
         let law = FrictionLaw { stiffness: 2e6, coefficient: 0.6 };
-        // Depth at which the contact force carries the weight.
+        // Bisection finds the depth `low` at which the contact force carries the weight.
         let (mut low, mut high) = (0.0, 0.1);
         for _ in 0..60 {
             let depth = 0.5 * (low + high);
@@ -245,7 +249,7 @@ mod tests {
             x += step * v;
             at_rest = if v.x.abs() < 1e-2 { at_rest + 1 } else { 0 };
         }
-        // Tolerance: 1 %, because the extension mu m g / k_t of the spring is 0.3 mm of 85 mm.
+        // Tolerance: 1 % of the distance of 85 mm, because the spring first extends by mu m g / k_t = 0.3 mm.
         assert!((x.x / 0.0850 - 1.0).abs() < 0.01, "{}", x.x);
     }
 }

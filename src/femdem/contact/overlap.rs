@@ -1,39 +1,43 @@
 //! Contact of two tetrahedra: the energy of their overlap and its exact gradient.
 //!
 //! Contact potential: Munjiza (2004), "The Combined Finite-Discrete Element Method", ch. 2. phi_T is 1 at the centroid
-//! of a tetrahedron, 0 on its surface, and linear in the four sub-tetrahedra between the centroid and the faces: phi_T
-//! = 4 min_j lambda_j with the barycentric coordinates lambda. Energy of the pair (T, C) with the penalty p [Pa]:
+//! of tetrahedron T, 0 on its surface, and linear in the four sub-tetrahedra between the centroid and the faces. With
+//! the barycentric coordinates lambda_j of T, phi_T is 4 times the smallest lambda_j. phi_C is the same for tetrahedron
+//! C. Energy of the pair (T, C) with the penalty p [Pa]:
 //!
-//!   E = p (I_T + I_C),   I_T = integral of phi_T over the overlap of T and C [m3].
+//!   E = p (I_T + I_C),   I_T and I_C = integrals of phi_T and phi_C over the overlap of T and C [m3].
 //!
-//! Gradient. Let the vertices move with velocities u, linear in each tetrahedron. phi_T moves with T, so at a fixed
-//! position d phi_T / dt = -u_T . grad phi_T. With Reynolds' theorem, the divergence theorem and phi_T = 0 on the
-//! surface of T,
+//! Gradient. If the vertices move, the velocities u_T in T and u_C in C are linear in the position. phi_T moves with T,
+//! so at a fixed position d phi_T / dt = -u_T . grad phi_T. From Reynolds' theorem, the divergence theorem and phi_T =
+//! 0 on the surface of T follows, with the outward unit normal n_k of face k of C,
 //!
 //!   dI_T/dt = sum over faces k of C of  integral of phi_T (u_C - u_T) . n_k dA over (face k inside T)  +  I_T div u_T,
 //!
-//! so that, with the shape functions N, the forces are
+//! The forces from I_T are therefore, with the shape functions N_i^C of C and N_j^T of T,
 //!
 //!   on vertex i of C: -p sum_k n_k integral phi_T N_i^C dA,
-//!   on vertex j of T: +p sum_k n_k integral phi_T N_j^T dA - p I_T grad N_j^T,
+//!   on vertex j of T: +p sum_k n_k integral phi_T N_j^T dA - p I_T grad N_j^T.
 //!
-//! and the same with T and C exchanged. Both forces act at the same dA, so the pair conserves momentum and angular
-//! momentum to rounding.
+//! The forces from I_C follow if T and C are exchanged. The forces on T and C act on the same surface elements dA, so
+//! the pair conserves momentum and angular momentum to rounding.
 //!
-//! Volume integral. In the part where lambda_j is least, phi_T is linear and div(phi_T (x - a_j)) = 4 phi_T for any
-//! point a_j of face j. The plane between two parts j and l contributes phi_T (a_l - a_j) . n, which vanishes if
-//! a_l - a_j is parallel to the plane. The points in `anchors` achieve this for all planes except the plane between
-//! parts 0 and 1. There, the area vector of the triangle inside T times a_1 - a_0 is 3 V_T:
+//! Volume integral. In part j of T, where lambda_j is least, phi_T is linear, and div(phi_T (x - a_j)) = 4 phi_T for
+//! any point a_j in the plane of face j. With the divergence theorem, I_T becomes a sum of surface integrals. The plane
+//! between two parts j and l, with the normal n, contributes the integral of phi_T (a_l - a_j) . n. This integral
+//! vanishes if a_l - a_j is parallel to the plane. The points of the function `anchors` achieve this for all planes
+//! except the plane between parts 0 and 1. This plane contains the triangle (centroid, vertex 2, vertex 3) of T, and
+//! a_1 - a_0 times the area vector of the triangle is 3 V_T. With the volumes V_T and V_C,
 //!
-//!   4 I_T = sum_k sum_j 3 V_C N_k^C(a_j) m_kj + 3 V_T q,
+//!   4 I_T = sum_k sum_j 3 V_C N_k^C(a_j) m_kj + 3 V_T q.
 //!
-//! with m_kj the integral of phi_T over the part of face k of C where lambda_j is least, and q the integral over the
-//! part inside C of the triangle (centroid, vertex 2, vertex 3) of T, both divided by the area of the triangle. Every
-//! term has a factor phi_T, so faces of T and C that coincide except for rounding cause no error.
+//! m_kj is the integral of phi_T over the area of face k of C that is in part j, divided by the area of the whole face.
+//! q is the integral of phi_T over the area of the triangle that is inside C, divided by the area of the whole
+//! triangle. Every term has a factor phi_T, so faces of T and C that coincide except for rounding cause no error.
 //!
-//! Stiffness. The stiffest pair has a flush face of area A, with heights h_T, h_C over this face and a small overlap
-//! depth d: E = 2 p A (1/h_T + 1/h_C) d^2. The largest eigenvalue of its Hessian is 8/3 p A (1/h_T + 1/h_C) [N/m], and
-//! with masses of rho V / 4 at the vertices omega^2 = 16 p / rho (1/h_T + 1/h_C)^2.
+//! Stiffness. A pair is stiffest if a face of T and a face of C, both of area A, lie on each other. If d is the small
+//! overlap depth, and h_T and h_C are the heights of T and C over this face, E = 2 p A (1/h_T + 1/h_C) d^2. The largest
+//! eigenvalue of the Hessian of E is (8/3) p A (1/h_T + 1/h_C) [N/m]. With a quarter of the mass of each tetrahedron at
+//! each of its vertices and the density rho, the square of the angular frequency is (16 p / rho) (1/h_T + 1/h_C)^2.
 
 use glam::{DVec3, DVec4};
 
@@ -59,8 +63,8 @@ impl Overlap {
     }
 }
 
-/// If `Sum::weight` over energy^(2/3) is below this value [-], the weight is only rounding, as for identical
-/// tetrahedra.
+/// If `Sum::weight` over `Sum::energy`^(2/3) is at most this value [-], the weight consists of rounding errors only, as
+/// for identical tetrahedra.
 const NO_WEIGHT: f64 = 1e-12;
 
 /// Computes the overlap of tetrahedra T and C from their vertices [m], in any order. `None` if T and C do not overlap.
@@ -95,8 +99,8 @@ fn are_boxes_apart(t: &[DVec3; 4], c: &[DVec3; 4]) -> bool {
     low(t).cmpge(high(c)).any() || low(c).cmpge(high(t)).any()
 }
 
-/// Returns true if one face of a tetrahedron separates it from four vertices. The vertices are given in the barycentric
-/// coordinates of this tetrahedron.
+/// Returns true if one face of a tetrahedron separates it from the four vertices of the other tetrahedron. These
+/// vertices are given in the barycentric coordinates of the first tetrahedron.
 fn are_outside_a_face(vertices: &[DVec4; 4]) -> bool {
     let highest = vertices[0].max(vertices[1]).max(vertices[2].max(vertices[3]));
     highest.cmple(DVec4::ZERO).any()
@@ -152,7 +156,7 @@ impl Potential<'_> {
         sum.energy += integral;
     }
 
-    /// Returns the integral q over the plane between the parts 0 and 1 [-].
+    /// Returns the integral q over the plane between parts 0 and 1 [-], see the comment of this module.
     fn between_parts(&self) -> f64 {
         let vertices = &self.owner_in_other;
         let centroid = 0.25 * (vertices[0] + vertices[1] + vertices[2] + vertices[3]);
@@ -165,8 +169,9 @@ impl Potential<'_> {
 /// For each vertex, the vertices of the face opposite to it.
 const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 
-/// Returns the points a_j, from the vertices of the tetrahedron in any affine coordinates. In barycentric coordinates,
-/// a_0 = (0, 2, -1/2, -1/2), a_1 = (2, 0, -1/2, -1/2), a_2 = a_3 = (1/2, 1/2, 0, 0).
+/// Returns the points a_j (see the comment of this module) from the vertices of the tetrahedron in any affine
+/// coordinates. In barycentric coordinates, a_0 = (0, 2, -1/2, -1/2), a_1 = (2, 0, -1/2, -1/2), a_2 = a_3 = (1/2, 1/2,
+/// 0, 0).
 fn anchors(vertices: &[DVec4; 4]) -> [DVec4; 4] {
     let middle = 0.5 * (vertices[0] + vertices[1]);
     let opposite = 0.5 * (vertices[2] + vertices[3]);
@@ -175,7 +180,7 @@ fn anchors(vertices: &[DVec4; 4]) -> [DVec4; 4] {
 
 /// Integrals of a potential over the part of a face inside its owner, divided by the area of the face.
 struct FaceIntegrals {
-    /// Integral of the potential over the part where barycentric coordinate j is least, m_kj [-].
+    /// Integral of the potential over the part where barycentric coordinate j is least, m_kj for face k [-].
     per_part: [f64; 4],
     /// Integral of the potential times the shape function of each corner of the face [-].
     at_corner: [f64; 3],

@@ -9,8 +9,8 @@ use crate::random::SplitMix64;
 
 type Pair = [[DVec3; 4]; 2];
 
-/// Random overlapping pairs, from a very small overlap to one tetrahedron inside the other. T has a size of 1 m, C of
-/// 0.1 to 2.1 m.
+/// Returns random overlapping pairs, from a very small overlap to one tetrahedron inside the other. The size of T is 1
+/// m, the size of C is 0.1 to 2.1 m.
 fn random_pairs(seed: u64, count: usize) -> Vec<(Pair, Overlap)> {
     let mut random = SplitMix64::new(seed);
     let mut pairs = Vec::new();
@@ -51,9 +51,9 @@ fn forces_are_minus_the_gradient_of_the_energy() {
                 };
                 ((energy_at(step) - energy_at(-step)) / (2.0 * step) + found.forces[body][vertex][axis]).abs()
             };
-            // 5e-17: rounding of the energy (1e-24 for an overlap 1e-4 m deep), divided by the increment. The best
-            // increment depends on the depth and on jumps of the second derivative. The gradient is continuous, so no
-            // pair is skipped.
+            // Tolerance 5e-17: rounding of the energy (1e-24 for an overlap 1e-4 m deep), divided by twice the smallest
+            // increment. The best increment depends on the depth and on jumps of the second derivative, so one of six
+            // increments must give the force. The gradient is continuous, so no pair is skipped.
             let allowed = 1e-6 * largest_force(&found) + 5e-17;
             assert!([1e-4, 1e-5, 1e-6, 1e-7, 1e-3, 1e-8].into_iter().any(|step| error(step) < allowed), "{pair:?}");
         }
@@ -108,7 +108,7 @@ fn overlap_energy_of_identical_tetrahedra_is_half_their_volume() {
         let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
         let volume = Tetrahedron::new(&t).unwrap().volume;
         let found = overlap(&t, &t).unwrap();
-        // The mean of each potential is 1/4. Tolerance: only rounding.
+        // The mean of each potential is 1/4, and there are two potentials. Tolerance: only rounding.
         assert!((found.energy - 0.5 * volume).abs() < 1e-15);
         assert!((found.centre - t.iter().sum::<DVec3>() / 4.0).length() < 1e-15);
     }
@@ -120,8 +120,8 @@ fn overlap_energy_of_a_small_tetrahedron_inside_another_follows_the_potential_at
     for _ in 0..1000 {
         let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
         let outer = Tetrahedron::new(&t).unwrap();
-        // At the centroid, coordinate j is 0.1 and the others are 0.3. The part where coordinate j is least is then
-        // wide enough for the small tetrahedron.
+        // At the point `about`, barycentric coordinate j of the large tetrahedron is 0.1 and the others are 0.3. The
+        // part where coordinate j is least is wide enough for the small tetrahedron there.
         let j = (4.0 * random.next_share()) as usize;
         let about = outer.weighted(DVec4::splat(0.3) - 0.2 * DVec4::AXES[j]);
         let c = random_tetrahedron(&mut random, about, 0.01);
@@ -136,7 +136,8 @@ fn separate_or_touching_tetrahedra_have_no_overlap() {
     let t = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let below = [DVec3::ZERO, DVec3::X, DVec3::Y, -DVec3::Z];
     assert_eq!(overlap(&t, &below), None);
-    // Corner on face, edge on edge, corner on corner. Then separate tetrahedra, with and without intersecting boxes.
+    // A corner on a face, an edge on an edge, a corner on a corner. Then separate tetrahedra, first with and then
+    // without intersecting boxes. Last, a tetrahedron without volume.
     let corner = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     assert_eq!(overlap(&t, &[corner(0.2, 0.2, 0.0), corner(0.0, 0.2, -1.0), corner(0.5, 0.2, -1.0), -DVec3::Z]), None);
     assert_eq!(overlap(&t, &[DVec3::ZERO, DVec3::X, -DVec3::Y, -DVec3::Z]), None);
@@ -152,7 +153,7 @@ fn faces_that_coincide_to_rounding_give_no_spurious_overlap() {
     for _ in 0..2000 {
         let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
         let [a, b, c, d] = t;
-        // The neighbour across the face a, b, c, and a tetrahedron on the same side with the same face.
+        // `neighbour` lies across the face (a, b, c) of T; `upper` has the same face and lies on the same side as T.
         let mirrored = d - 2.0 * (d - a).project_onto((b - a).cross(c - a));
         let noise = |v: DVec3, random: &mut SplitMix64| v + 2e-16 * random_point(random);
         let neighbour = [a, b, c, mirrored].map(|v| noise(v, &mut random));
@@ -175,8 +176,8 @@ fn energy_of_a_tip_in_a_face_grows_with_the_fourth_power_of_the_depth() {
     let (energy, force) = (tip(1e-2).energy / 1e-8, tip(1e-2).resultant() / 1e-6);
     for depth in [1e-3, 1e-4, 1e-5, 1e-6] {
         let found = tip(depth);
-        // The depth is a difference of positions of up to 18 m, rounded to 1e-15. The energy is a difference of terms
-        // that are larger by a further factor 1 / depth.
+        // The depth is a difference of positions of up to 18 m, rounded to about 1e-15 m. This limits the accuracy of
+        // the force. The energy is a difference of terms that are larger than the energy by a further factor 1 / depth.
         let allowed = 1e-14 / depth;
         assert!((found.energy / depth.powi(4) / energy - 1.0).abs() < allowed / depth, "{depth} {}", found.energy);
         assert!((found.resultant() / depth.powi(3) - force).length() < allowed * force.length());
@@ -185,7 +186,7 @@ fn energy_of_a_tip_in_a_face_grows_with_the_fourth_power_of_the_depth() {
 
 #[test]
 fn contact_of_two_meshed_cubes_does_not_depend_on_the_numbering() {
-    // Six tetrahedra along the diagonal (Kuhn), one per order of the axes.
+    // A cube of six tetrahedra around its diagonal (Kuhn 1960), one for each order of the three axes.
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let cube = |shift: DVec3| {
         orders.map(|order| {
@@ -208,21 +209,23 @@ fn contact_of_two_meshed_cubes_does_not_depend_on_the_numbering() {
     renumbered.reverse();
     let (energy_again, force_again) = total(&lower, &renumbered);
     let (energy_back, force_back) = total(&renumbered, &lower);
-    // Tolerance: rounding, 1e-15 / depth^2 for energies.
+    // Tolerance: rounding, of the order of 1e-15 / depth^2 = 1e-9 for the energies.
     assert!((energy_again / energy - 1.0).abs() < 1e-9 && (energy_back / energy - 1.0).abs() < 1e-9);
     assert!((force_again - force).length() < 1e-14 && (force_back + force).length() < 1e-14);
-    // In each side of the cube, two of the six tetrahedra have a face. The potential rises from 0 at this face to 1
-    // over a quarter of the height of 1 m. For each cube, its mean over the overlap is 4 depth / 2. Where another face
-    // is nearer, the potential is lower, in proportion to the depth.
+    // Two of the six tetrahedra of each cube have a face in the contact plane. Their potential rises from 0 at this
+    // face to 1 over a quarter of their height of 1 m, so its mean over the overlap is 4 depth / 2. The volume of the
+    // overlap is `depth`, so both cubes together have the energy 4 depth^2. Tolerance, in proportion to the depth:
+    // where another face is nearer, the potential is lower.
     assert!((energy / (4.0 * depth * depth) - 1.0).abs() < 5.0 * depth, "{energy}");
-    // The force points upwards. The cubes are flush at the sides, so no lateral force acts.
+    // The force on the upper cube points upwards. The sides of the cubes are aligned, so there is almost no lateral
+    // force.
     assert!(force.z > 0.0 && force.truncate().length() < 5.0 * depth * force.z, "{force}");
 }
 
 #[test]
 fn a_bouncing_tetrahedron_conserves_energy_for_any_penalty() {
-    // A tetrahedron falls at 1 m/s on a fixed tetrahedron with edges of about 10 m. The falling tetrahedron has springs
-    // of 1 m as edges and a mass of 1 kg at each vertex.
+    // A tetrahedron moves at 1 m/s, without gravity, onto a fixed tetrahedron with edges of about 10 m. The edges of
+    // the moving tetrahedron are springs of 1 m length, with a mass of 1 kg at each vertex.
     let base = [[-5.0, -3.0, 0.0], [5.0, -3.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, -8.0]].map(DVec3::from_array);
     let edges = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
     let (stiffness, step) = (5e3, 5e-6);
@@ -244,7 +247,7 @@ fn a_bouncing_tetrahedron_conserves_energy_for_any_penalty() {
                 force[j] -= pull;
                 stored += 0.5 * stiffness * extension * extension;
             }
-            // Velocity at the time of the positions: half a time step after `v`.
+            // The energy needs the velocity at the time of the positions `x`, half a time step after `v`.
             let kinetic: f64 = (0..4).map(|i| 0.5 * (v[i] + 0.5 * step * force[i]).length_squared()).sum();
             worst = worst.max((kinetic + stored - 2.0).abs() / 2.0);
             if touched && found.is_none() && x.iter().all(|vertex| vertex.z > 0.05) {
@@ -266,7 +269,7 @@ fn the_stiffness_of_a_flush_pair_equals_the_formula() {
     let height = (2.0f64 / 3.0).sqrt();
     let normal = -t[3].normalize();
     let mirrored = t[3] + 2.0 * height * normal;
-    // All vertices of the common face move, each with 1 / sqrt(6) in the eigenvector.
+    // In the eigenvector, the three vertices of each of the two faces move along the normal, each by 1 / sqrt(6).
     let resultant = |depth: f64| {
         let c = [t[0], t[1], t[2], mirrored].map(|vertex| vertex - depth * normal);
         let found = overlap(&t, &c).unwrap();
@@ -275,6 +278,6 @@ fn the_stiffness_of_a_flush_pair_equals_the_formula() {
     let (depth, change) = (1e-4, 1e-6);
     let stiffness = (resultant(depth + change) - resultant(depth - change)) / (2.0 * change) * 2.0 / 3.0;
     let area = 0.75f64.sqrt() / 2.0;
-    // The stiffness is lower at the corners of the face, in proportion to the depth.
+    // Tolerance, in proportion to the depth: near the edges of the face, the stiffness is lower.
     assert!((stiffness * height / (16.0 / 3.0 * area) - 1.0).abs() < 30.0 * depth, "{stiffness}");
 }

@@ -1,18 +1,20 @@
 //! Pairs of tetrahedra in contact: which pairs can touch, their forces, and the start of a contact.
 //!
-//! Only tetrahedra with a free face can touch: on the surface of a body or at a crack. Two tetrahedra cannot touch if
+//! Only tetrahedra with a free face, on the surface of a body or at a crack, can touch. Two tetrahedra cannot touch if
 //! they share a node and unbroken faces connect them around this node, unless the face between them has broken.
 //!
-//! The initial overlap of a new pair does not count. There is one exception: if a joint failed in compression, the pair
-//! takes over its elastic energy, so that no energy is created. p I is the overlap energy, and I_b is the initial part
-//! of I that does not count. The pair has
+//! A new pair may overlap from the start. This initial overlap does not count, with one exception: if a joint failed in
+//! compression, the pair takes over the elastic energy of the joint, which would otherwise be dissipated. The energy of
+//! the whole overlap is p I, with the contact penalty p, and I_b is the initial part of I that does not count. Where I
+//! > I_b, the energy E and the forces F of the pair are
 //!
-//!   E = p (sqrt I - sqrt I_b)^2 where I > I_b, and the share 1 - sqrt(I_b / I) of the forces of the overlap.
+//!   E = p (sqrt I - sqrt I_b)^2,   F = (1 - sqrt(I_b / I)) times the forces of the whole overlap.
 //!
-//! The force rises from zero. For flush faces, I grows with the square of the depth, and the force rises as steeply as
-//! for two separate bodies. No pair is stiffer. (With the energy p (I - I_b), the force would jump at I = I_b.
-//! Fragments that vibrate there would gain half of force times displacement in each time step that crosses the jump.)
-//! If I falls below I_b, I_b is reduced to I. Fragments that separate and meet again are therefore a normal contact.
+//! The forces rise from zero. The stiffest pairs have flush faces. There, I grows with the square of the overlap depth,
+//! so the force rises as steeply as for two separate bodies. (With the energy p (I - I_b), the force would jump at
+//! I = I_b. Fragments that vibrate about this point would gain energy in each time step that crosses the jump: half of
+//! the force times the displacement.) If I falls below I_b, I_b is reduced to I. Fragments that separate and meet again
+//! therefore behave like two separate bodies.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -48,7 +50,8 @@ struct Pair {
     law: FrictionLaw,
     /// Initial overlap I_b (energy over penalty) that does not count [m3]; `None` before the first evaluation.
     initial_overlap: Option<f64>,
-    /// Elastic energy that the pair takes over from a broken joint [J]. What the pair cannot store is dissipated.
+    /// Elastic energy that the pair takes over from a broken joint [J]. The part that the pair cannot store is
+    /// dissipated.
     inherited_energy: f64,
     spring: Option<TangentialSpring>,
     forces: Option<[[DVec3; 4]; 2]>,
@@ -63,7 +66,8 @@ struct Pair {
 pub struct Contacts {
     /// Tetrahedra with a free face, in ascending order.
     outer: Vec<u32>,
-    /// For every node copy, the first copy of the same mesh node that unbroken faces connect with it.
+    /// For every node copy, its group: the number of the first copy of the same mesh node that unbroken faces connect
+    /// with it.
     group: Vec<NodeCopy>,
     pairs: Vec<Pair>,
     /// Pairs of tetrahedra whose joint has broken since the last search, and the elastic energy of this joint [J].
@@ -101,7 +105,7 @@ impl Contacts {
         contacts
     }
 
-    /// Records that unbroken faces connect the node copies of `group`, and no other copies with them.
+    /// Records that unbroken faces connect the node copies of `group` with each other, but not with any other copy.
     pub fn regroup(&mut self, group: &[NodeCopy]) {
         group.iter().for_each(|copy| self.group[*copy as usize] = group[0]);
         self.scalars.outdated = true;
@@ -125,7 +129,7 @@ impl Contacts {
     }
 
     /// Adds all contact forces to the forces of the tetrahedra [N]. The nodes have moved to `position` [m] with the
-    /// velocity `velocity` [m/s] in the time `dt` [s].
+    /// velocity `velocity` [m/s] in the time `dt` [s]. `is_broken` returns true for the number of a broken face.
     pub fn add_forces(
         &mut self,
         setup: &Setup,
@@ -208,7 +212,7 @@ impl Contacts {
 }
 
 /// Returns true if a face of one tetrahedron separates it from the other one by more than a gap [m]. This test removes
-/// most pairs with intersecting boxes, because the boxes of second neighbours on a surface often intersect.
+/// most pairs with intersecting boxes: on a surface, the boxes of tetrahedra that do not touch often intersect.
 fn are_apart(a: &[DVec3; 4], b: &[DVec3; 4], gap: f64) -> bool {
     let beyond_a_face = |owner: &[DVec3; 4], other: &[DVec3; 4]| {
         let Some(owner) = Tetrahedron::new(owner) else { return false };
@@ -268,7 +272,7 @@ impl Pair {
         let Some(found) = found.filter(|found| found.energy > 0.0) else { return 0.0 };
         let root = found.energy.sqrt();
         let works = found.forces.iter().flatten().zip(moves.iter().flatten()).map(|(force, u)| force.dot(*u));
-        // Half the work against the forces of the whole overlap, divided by p sqrt I.
+        // `work` is half the work against the forces of the whole overlap in this time step, divided by p sqrt I.
         let work = -0.5 * works.sum::<f64>() / root;
         let counts = (0.5 * (work + (work * work + 4.0 * inherited / self.penalty).sqrt())).clamp(0.0, root);
         self.inherited_energy = (self.penalty * counts * (counts - work)).max(0.0);

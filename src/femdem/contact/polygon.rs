@@ -9,7 +9,8 @@ use std::ops::Sub;
 
 use glam::DVec2;
 
-/// Largest number of corners: a triangle that is cut by four faces and by three planes between sub-tetrahedra has ten.
+/// Largest number of corners: a triangle has three, and each cut adds at most one. Four faces and three planes between
+/// sub-tetrahedra can cut the triangle.
 const CAPACITY: usize = 10;
 
 /// A linear function on a triangle.
@@ -108,9 +109,9 @@ impl Polygon {
         if highest <= 0.0 {
             return Side::Negative;
         }
-        // The positive part is the sequence of positive corners around the farthest corner. Another corner may be
-        // positive by rounding. It stays in the negative part with its neighbours, so each part gains at most one
-        // corner.
+        // The positive part is the sequence of positive corners around the corner `farthest`. Because of rounding, a
+        // corner outside this sequence may also be positive. It stays in the negative part with its neighbours, so each
+        // part gains at most one corner.
         let (mut first, mut last) = (farthest, farthest);
         while sides[self.before(first)] >= 0.0 {
             first = self.before(first);
@@ -188,7 +189,8 @@ impl Polygon {
             moments.first += share * (sum * (a + b + c) + w_a * a + w_b * b + w_c * c);
             (b, w_b) = (c, w_c);
         }
-        // Exact on a triangle for a linear function and for the product of two linear functions.
+        // These formulas are exact on each triangle (a, b, c): the integrands are linear, or products of two linear
+        // functions.
         Moments { zeroth: moments.zeroth / 3.0, first: moments.first / 12.0 }
     }
 }
@@ -213,7 +215,8 @@ mod tests {
 
     #[test]
     fn integrals_over_a_triangle_have_their_textbook_values() {
-        // Mean of lambda_i lambda_j over a triangle: 1/6 for i = j, 1/12 otherwise.
+        // The mean of a barycentric coordinate is 1/3. The mean of a product of two is 1/6 if they are the same, else
+        // 1/12.
         let moments = Polygon::triangle().integrate(Linear::with_values([0.0, 1.0, 0.0]));
         assert!((moments.zeroth - 1.0 / 3.0).abs() < 1e-16);
         assert!((moments.first - DVec2::new(1.0 / 6.0, 1.0 / 12.0)).length() < 1e-16);
@@ -242,7 +245,7 @@ mod tests {
                 sum.zeroth += part.zeroth;
                 sum.first += part.first;
             }
-            // 1e-14: rounding of about ten parts.
+            // Tolerance: rounding of the sum over all parts.
             assert!((sum.zeroth - whole.zeroth).abs() < 1e-14);
             assert!((sum.first - whole.first).length() < 1e-14);
         }

@@ -17,7 +17,8 @@ pub fn regular_tetrahedron(centroid: DVec3, edge: f64) -> [DVec3; 4] {
     corner.map(|c| centroid + edge / 8f64.sqrt() * DVec3::from_array(c))
 }
 
-/// Returns a random tetrahedron of about the given size [m] around a point [m]. It is no flatter than in a good mesh.
+/// Returns a random tetrahedron of about the given size [m] around a point [m]. Its smallest height is more than a
+/// fifth of this size, so the tetrahedron is not flatter than those of a good mesh.
 pub fn random_tetrahedron(random: &mut SplitMix64, about: DVec3, size: f64) -> [DVec3; 4] {
     loop {
         let vertices = [0; 4].map(|_| about + size * random_point(random));

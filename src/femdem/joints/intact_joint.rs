@@ -1,7 +1,8 @@
-//! Forces of intact joints (without damage or plastic slip), four at a time. Most joints remain intact during a run.
+//! Forces of intact joints (without damage or plastic slip). Most joints remain intact during a run, so the code
+//! computes four of them at a time in SIMD lanes.
 //!
-//! Except for rounding, these forces equal those of [`super::joint::forces`] with a new state. If a joint reaches its
-//! strength, this module only reports the joint, and [`super::joint::forces`] computes its forces.
+//! Except for rounding, these forces equal those of [`super::joint::forces`] with a new, undamaged state. If a joint
+//! reaches its strength, this module only reports the joint, and [`super::joint::forces`] computes its forces.
 
 use crate::femdem::material::cohesive_law::Cohesion;
 use crate::femdem::parallel::lanes::{Lanes, Vectors};
@@ -9,7 +10,7 @@ use crate::femdem::parallel::lanes::{Lanes, Vectors};
 /// Cohesive laws of the joints in the SIMD lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct IntactLaw<L> {
-    /// p_0 [Pa].
+    /// Joint penalty p_0 [Pa].
     penalty: L,
     tensile: L,
     /// 1 / (2 f_t) [1/Pa].
@@ -23,7 +24,8 @@ pub struct IntactLaw<L> {
 pub struct IntactForces<L> {
     /// Forces on the corners of side 0 [N]; the forces on side 1 are opposite.
     pub forces: [Vectors<L>; 3],
-    /// Positive if a joint opens beyond its peak or slips beyond its strength; its forces are then not valid.
+    /// Positive if the opening of a joint exceeds its opening at peak stress, or its shear stress exceeds the shear
+    /// strength. The forces of this joint are then not valid.
     pub beyond: L,
 }
 
@@ -44,7 +46,7 @@ impl<L: Lanes> IntactLaw<L> {
     #[inline(always)]
     pub fn forces(&self, edge: L, area: L, [a, b]: &[[Vectors<L>; 3]; 2]) -> IntactForces<L> {
         let jump = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
-        // First corner of the mid-surface, multiplied by two.
+        // Twice the first corner of the mid-surface. The factor 2 does not change the direction of `normal`.
         let corner = a[0] + b[0];
         let normal = (a[1] + b[1] - corner).cross(a[2] + b[2] - corner);
         let normal = normal * (L::splat(1.0) / normal.dot(normal).sqrt());
@@ -53,7 +55,7 @@ impl<L: Lanes> IntactLaw<L> {
         let p = self.respond(stiffness, (jump[0] + jump[1]) * half, normal);
         let q = self.respond(stiffness, (jump[1] + jump[2]) * half, normal);
         let r = self.respond(stiffness, (jump[2] + jump[0]) * half, normal);
-        // Each point has a third of the area; each end of its edge gets half of the force.
+        // Each integration point has a third of the area; each of the two corners of its edge gets half of its force.
         let share = area * L::splat(1.0 / 6.0);
         IntactForces {
             forces: [(p.0 + r.0) * share, (p.0 + q.0) * share, (q.0 + r.0) * share],
@@ -61,15 +63,16 @@ impl<L: Lanes> IntactLaw<L> {
         }
     }
 
-    /// Returns the traction for a jump of the positions [m] (eq. 2 and elastic slip), and a number that is positive
-    /// beyond the elastic limit.
+    /// Returns the traction [Pa] for a jump of the positions [m] (eq. 2 and elastic slip), and a number that is
+    /// positive if the joint is no longer intact.
     #[inline(always)]
     fn respond(&self, stiffness: L, jump: Vectors<L>, normal: Vectors<L>) -> (Vectors<L>, L) {
         let zero = L::splat(0.0);
         let opening = jump.dot(normal);
         let slip_squared = jump.dot(jump) - opening * opening;
         let elastic = stiffness * opening;
-        // K = 2 f_t / delta_p: r = K delta / (2 f_t), and f_t (2 - r) r is K delta (1 - r / 2).
+        // With the stiffness K = 2 f_t / delta_np and the opening delta, r = delta / delta_np is K delta / (2 f_t), and
+        // the normal stress of eq. 2, f_t (2 - r) r, is K delta (1 - r / 2).
         let r = (elastic * self.per_tensile).max(zero);
         let stress = elastic - elastic * (r * L::splat(0.5));
         let strength = (self.cohesion - stress.min(self.tensile) * self.friction).max(zero);
@@ -99,7 +102,8 @@ mod tests {
         let mut random = SplitMix64::new(5);
         let (mut intact, mut damaged) = (0, 0);
         for _ in 0..2000 {
-            // Offsets around the opening and slip at the strength, 0.15 and 0.37 micrometres.
+            // Random offsets of the order of the opening at peak stress (0.17 micrometres) and of the slip at the shear
+            // strength (0.37 to 0.42 micrometres), so that some joints stay intact and others do not.
             let mut offset = || 4e-7 * DVec3::new(random.next_share(), random.next_share(), random.next_share());
             let sides = [corners.map(|corner| corner - offset()), corners.map(|corner| corner + offset() - offset())];
             let mut state = JointState::default();
@@ -115,7 +119,7 @@ mod tests {
             }
             intact += 1;
             for (found, expected) in found.forces.into_iter().zip(expected.forces) {
-                // Tolerance: rounding, because jumps of 0.1 micrometres are differences of positions of 3 cm.
+                // Tolerance: rounding. The jumps of about 0.1 micrometres are differences of positions of about 3 cm.
                 assert!((found.to_array()[0] - expected).length() < 1e-9 * expected.length() + 1e-6);
             }
         }

@@ -1,9 +1,9 @@
 //! The joint element between two tetrahedra: six nodes, three integration points (Guo, Latham and Xiang, fig. 3).
 //!
 //! The mid-surface is the mean of the two faces; its normal n points from side 0 to side 1. The integration points are
-//! the midpoints of the edges, each with the undeformed area A/3. The jump of the positions between the two sides is
-//! split into the opening along n and the slip normal to n. Shape functions distribute the tractions to the nodes. This
-//! integration is exact for linear jumps.
+//! the midpoints of the edges; each represents a third of the undeformed area of the face. The jump of the positions
+//! between the two sides has two parts: the opening along n, and the slip in the mid-surface. Shape functions
+//! distribute the tractions to the nodes. The integration is exact if the traction varies linearly over the face.
 
 use glam::DVec3;
 
@@ -17,7 +17,8 @@ const ENDS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 pub struct JointState {
     /// States of the three integration points.
     pub points: [PointState; 3],
-    /// Opening in the cohesive law when the tied face was released [m]. It is added to the opening of the faces.
+    /// Opening at which the cohesive law starts when a tied face is released [m]; zero for other joints. The code adds
+    /// it to the opening between the two faces.
     pub offset: f64,
     /// True if a point has damage or plastic slip, or if the joint was released from a tied face.
     pub(super) is_damaged: bool,
@@ -80,7 +81,7 @@ pub fn forces(law: &CohesiveLaw, area: f64, state: &mut JointState, sides: &[[DV
     for (point, [i, j]) in state.points.iter_mut().zip(ENDS) {
         let (opening, slip) = axes.split((jump[i] + jump[j]) * 0.5);
         let traction = law.respond(point, opening + state.offset, slip);
-        // Each point has a third of the area; each end of its edge gets half of the force.
+        // Each integration point has a third of the area; each of the two corners of its edge gets half of its force.
         let force = axes.join(traction.normal, traction.shear) * (area / 6.0);
         out.forces[i] += force;
         out.forces[j] += force;

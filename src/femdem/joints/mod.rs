@@ -3,7 +3,7 @@
 //! | file | contents |
 //! | --- | --- |
 //! | `joint` | the joint element between two tetrahedra |
-//! | `intact_joint` | intact joints, four at a time |
+//! | `intact_joint` | forces of intact joints, four joints at a time |
 //!
 //! Intact joints need no stored state. Damaged joints (with damage or plastic slip, or released from tied faces) are in
 //! a separate list, in the order in which they were damaged or released.
@@ -47,7 +47,7 @@ pub struct DamagedJoint {
     pub state: JointState,
     /// Energy dissipated so far [J].
     pub dissipated: f64,
-    /// Elastic energy when the joint was released from a tied face [J]; else zero.
+    /// Elastic energy of the joint when it was released from a tied face [J]; zero for a joint that was never tied.
     pub released: f64,
     /// Forces on the corners of side 0 [N].
     forces: [DVec3; 3],
@@ -77,7 +77,8 @@ impl DamagedJoint {
         Self { interface: interface as u32, state, dissipated: 0.0, released: 0.0, forces, failed: false }
     }
 
-    /// Returns the joint as numbers for a checkpoint: offset, 1 if damaged, the two energies, the states of the points.
+    /// Returns the joint as numbers for a checkpoint: the fields `offset` and `is_damaged` (1 or 0) of its state, the
+    /// energies `dissipated` and `released`, and the states of the three integration points.
     pub fn to_array(&self) -> [f64; JOINT_STATE_LENGTH] {
         let JointState { points, offset, is_damaged } = self.state;
         let mut numbers = [0.0; JOINT_STATE_LENGTH];
@@ -133,7 +134,7 @@ impl Joints {
         for number in reached.iter_mut().flat_map(|reached| reached.drain(..)) {
             let number = number as usize;
             bond[number] = Bond::Damaged;
-            // First computes the state one time step earlier, so that the dissipation of this time step counts.
+            // The state one time step earlier is needed first, to find the dissipation in this time step.
             let ([edge, area], mut state) = (size[number], JointState::default());
             let before = faces_before(number, setup, tets, nodes, dt);
             joint::forces(&cohesion(setup, number).law(edge), area, &mut state, &before);
@@ -146,7 +147,7 @@ impl Joints {
             let response = joint::forces(&cohesion(setup, number).law(edge), area, &mut joint.state, &sides);
             joint.forces = response.forces;
             joint.dissipated += response.dissipated;
-            // A joint fails when two of its three points have failed, as is usual in the literature.
+            // A joint fails when two of its three integration points have failed, as is usual in the literature.
             joint.failed = response.failed >= 2;
         });
         damaged.iter().for_each(|joint| forces[joint.interface as usize] = joint.forces);
@@ -166,7 +167,7 @@ impl Joints {
         }
         let [edge, area] = self.size[number];
         let (law, sides) = (cohesion(setup, number).law(edge), faces(number, setup, tets, nodes));
-        // Computes the state at the current positions from a new state.
+        // An intact joint has no history, so its state follows from a new state and the current positions.
         let mut state = JointState::default();
         joint::forces(&law, area, &mut state, &sides);
         joint::stored(&law, area, &state)
@@ -204,7 +205,7 @@ impl WithLanes for IntactChunk<'_> {
     fn run<L: Lanes>(self) {
         let mut next = 0;
         loop {
-            // Unused lanes repeat the last joint.
+            // Lanes without a joint of their own repeat the last joint; their results are not used.
             let (mut indices, mut count) = ([0; LANES], 0);
             while next < self.bond.len() && count < LANES {
                 if self.bond[next] == Bond::Intact {

@@ -4,12 +4,12 @@
 //!
 //! | point | choice |
 //! | --- | --- |
-//! | penalty stiffness | 2 f / delta_p = p_0 / h in tension, sliding and compression; h is the mean edge of the joint, p_0 a stress |
-//! | softening range | exact: the area under the curve is G_f; published: max(2 delta_p, 3 G_f / f), which dissipates 1.16 G_f |
+//! | initial stiffness | p_0 / h in tension, sliding and compression, with the joint penalty p_0 [Pa] and the mean edge length h of the joint. The opening at the peak stress f_t is then delta_np = 2 h f_t / p_0 |
+//! | softening range | `Range::Exact`: the area under the traction-separation curve is G_f. `Range::Published`: max(2 delta_np, 3 G_f / f_t), which dissipates at least 1.16 G_f after the peak |
 //! | unloading and reloading | along the secant to the origin; damage never decreases |
-//! | sliding | return mapping to the yield stress f_s z(D): elastic slip with the stiffness p_0 / h; the remaining slip is plastic and causes damage. The parabola of eq. 2 is used in tension only: in sliding, it would create energy when f_s changes |
+//! | sliding | return mapping to the yield stress f_s z(D), with the shear strength f_s. The elastic part of the slip has the stiffness p_0 / h; the remaining slip is plastic and causes damage. The parabola of eq. 2 is used in tension only: in sliding, it would create energy when f_s changes with the normal stress |
 //! | mixed mode | the damage D of eq. 4 reduces both the tensile and the shear strength |
-//! | snap-back | softening in sliding is never steeper than the elastic line; at this limit, a joint dissipates more than G_fII |
+//! | snap-back | the softening range in sliding is long enough that the shear stress never falls more steeply than p_0 / h. Where this limit applies, a joint dissipates more than the fracture energy in sliding, G_fII |
 //!
 //! The dissipation is never negative on any path.
 
@@ -19,10 +19,10 @@ use super::softening::{AREA, STEEPEST, z};
 /// Choice of the softening range of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Range {
-    /// The area under the traction-separation curve is the fracture energy.
+    /// The area under the traction-separation curve is the fracture energy G_f.
     #[default]
     Exact,
-    /// max(2 delta_p, 3 G_f / f), as in the published programs.
+    /// max(2 delta_np, 3 G_f / f_t), as in the published programs; see the table above.
     Published,
 }
 
@@ -31,11 +31,12 @@ pub enum Range {
 pub struct Cohesion {
     /// Strength of the material.
     pub strength: Strength,
-    /// Joint penalty p_0 [Pa]; the stiffness before the peak is p_0 / h.
+    /// Joint penalty p_0 [Pa]; the initial stiffness of a joint with the mean edge length h is p_0 / h.
     pub penalty: f64,
     /// Softening range.
     pub range: Range,
-    /// True if faces are tied until they reach their strength. Their joints then dissipate all of G_f after the peak.
+    /// True if faces are tied until they reach their strength. With [`Range::Exact`], their joints then dissipate all
+    /// of G_f after the peak.
     pub tied: bool,
 }
 
@@ -43,11 +44,11 @@ pub struct Cohesion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CohesiveLaw {
     strength: Strength,
-    /// p_0 / h [Pa/m].
+    /// Initial stiffness p_0 / h [Pa/m].
     stiffness: f64,
     /// Opening at peak stress, delta_np [m].
     peak_opening: f64,
-    /// delta_nc - delta_np [m].
+    /// Softening range in opening, from the peak stress to failure: delta_nc - delta_np [m].
     opening_range: f64,
     range: Range,
 }
@@ -60,7 +61,7 @@ pub const POINT_STATE_LENGTH: usize = 10;
 pub struct PointState {
     /// Largest damage D so far [-].
     pub damage: f64,
-    /// Secant stiffness in opening [Pa/m]; infinite while undamaged.
+    /// Stiffness of the secant to the origin in opening [Pa/m]; infinite for a point without damage.
     secant: f64,
     /// Opening at the last call of [`CohesiveLaw::respond`] [m].
     opening: f64,
@@ -126,7 +127,7 @@ impl Cohesion {
     pub fn law(&self, h: f64) -> CohesiveLaw {
         let Strength { tensile, opening_energy, .. } = self.strength;
         let peak_opening = 2.0 * h * tensile / self.penalty;
-        // The area under the parabola is 2/3 f delta_p.
+        // The area under the curve before the peak, a parabola, is 2/3 f_t delta_np.
         let before = if self.tied { 0.0 } else { 2.0 / 3.0 * peak_opening };
         let opening_range = match self.range {
             Range::Exact => (opening_energy / tensile - before) / AREA,
@@ -136,7 +137,8 @@ impl Cohesion {
         CohesiveLaw { strength, stiffness: self.penalty / h, peak_opening, opening_range, range }
     }
 
-    /// Returns the longest usable edge length [m]. With longer edges, the work before the peak alone exceeds G_f.
+    /// Returns the longest usable edge length [m]. With longer edges, the work before the peak alone exceeds G_f. Tied
+    /// faces and [`Range::Published`] have no such limit.
     pub fn longest_edge(&self) -> f64 {
         if self.tied || self.range == Range::Published {
             return f64::INFINITY;
@@ -151,8 +153,9 @@ impl CohesiveLaw {
         self.stiffness
     }
 
-    /// Returns the state of a point that carries the given stress [Pa] at zero slip, and its opening [m] there.
-    /// This state is used when a tied face is released. A tensile stress above the strength is reduced to it.
+    /// Returns the state of a point that carries the given stress [Pa] at zero slip, and its opening at this stress
+    /// [m]. A joint starts with this state when a tied face is released. A tensile stress above the tensile strength is
+    /// reduced to the strength.
     pub fn loaded(&self, normal: f64, shear: [f64; 2]) -> (PointState, f64) {
         let f_t = self.strength.tensile;
         let opening = if normal > 0.0 {
@@ -190,7 +193,8 @@ impl CohesiveLaw {
         self.stored_normal(point) + 0.5 * self.stiffness * (a * a + b * b)
     }
 
-    /// Returns the normal stress [Pa]: by eq. 2 at the largest opening so far, or on the secant at a smaller opening.
+    /// Returns the normal stress [Pa] and updates the secant. A point without damage, or at its largest opening so far,
+    /// follows eq. 2. At a smaller opening, a damaged point follows the secant. Compression is elastic.
     fn normal(&self, point: &mut PointState, opening: f64) -> f64 {
         let left = z(point.damage);
         if opening <= 0.0 {
@@ -218,7 +222,8 @@ impl CohesiveLaw {
         }
         let range = self.sliding_range(strength);
         let damage = |slid: f64| opened.hypot((point.accumulated_slip + slid) / range).clamp(point.damage, 1.0);
-        // Decreases monotonically through zero, because the yield stress falls less steeply than the elastic line.
+        // `excess` decreases through zero as `slid` increases: the yield stress falls less steeply than the elastic
+        // stress.
         let excess = |slid: f64| trial - self.stiffness * slid - strength * z(damage(slid));
         let slid = root(excess, trial / self.stiffness);
         let yielded = (trial - self.stiffness * slid).max(0.0);
@@ -250,7 +255,8 @@ impl CohesiveLaw {
         }
     }
 
-    /// Returns the part of the work of the normal stress between two calls that is not stored [J/m2].
+    /// Returns the part of the work of the normal stress between two calls of [`Self::respond`] that is not stored
+    /// [J/m2].
     fn dissipated_normal(&self, old: &PointState, new: &PointState) -> f64 {
         if new.damage == old.damage && new.secant == old.secant {
             return 0.0;
@@ -270,9 +276,9 @@ impl CohesiveLaw {
         (work + stored(old, from) - stored(new, to)).max(0.0)
     }
 
-    /// Returns the part of the work of the shear stress between two calls that is not stored [J/m2]: mean stress times
-    /// plastic slip. If the stress changes sign between the calls, this product may be negative. It is then set to
-    /// zero, and the energy balance has an error of the same amount.
+    /// Returns the part of the work of the shear stress between two calls of [`Self::respond`] that is not stored
+    /// [J/m2]: mean stress times plastic slip. This product can be negative if the stress changes sign between the
+    /// calls. It is then set to zero, and the energy balance has an error of the same amount.
     fn dissipated_shear(&self, old: &PointState, new: &PointState) -> f64 {
         let (before, now) = (old.elastic_slip(), new.elastic_slip());
         let along = |k: usize| 0.5 * (before[k] + now[k]) * (new.plastic[k] - old.plastic[k]);
@@ -288,7 +294,7 @@ fn root(f: impl Fn(f64) -> f64, end: f64) -> f64 {
     if f_b >= 0.0 {
         return b;
     }
-    // Converges in about eight iterations. The limit of 60 ends the loop if rounding prevents convergence.
+    // The method converges in about eight iterations. The limit of 60 ends the loop if rounding prevents convergence.
     for _ in 0..60 {
         let x = (a * f_b - b * f_a) / (f_b - f_a);
         let f_x = f(x);

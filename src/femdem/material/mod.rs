@@ -17,7 +17,7 @@ pub struct Elastic {
     pub young_modulus: f64,
     /// Poisson's ratio nu [-].
     pub poisson_ratio: f64,
-    /// Viscosity eta of the stress eta D [Pa s].
+    /// Viscosity eta [Pa s]; the viscous stress is eta D, with the strain rate D.
     pub viscosity: f64,
 }
 
@@ -61,13 +61,14 @@ impl Strength {
         (self.cohesion - sigma_n.min(self.tensile) * self.friction).max(0.0)
     }
 
-    /// Returns the least stress that can break the material [Pa]: tensile strength, or shear strength at this tension.
+    /// Returns the least stress that can break the material [Pa]: the smaller of the tensile strength f_t and the shear
+    /// strength at the normal stress f_t.
     pub fn least(&self) -> f64 {
         self.tensile.min(self.shear(self.tensile))
     }
 
     /// Returns the characteristic lengths [m]: Hillerborg's E G_f / f_t^2 for opening and E G_fII / c^2 for sliding.
-    /// Elements of a quarter of these lengths resolve a crack.
+    /// A mesh resolves a crack if its elements are at most a quarter of these lengths.
     pub fn characteristic_lengths(&self, young_modulus: f64) -> [f64; 2] {
         let length = |energy: f64, strength: f64| young_modulus * energy / (strength * strength);
         [length(self.opening_energy, self.tensile), length(self.sliding_energy, self.cohesion)]

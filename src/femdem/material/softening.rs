@@ -5,10 +5,10 @@ const A: f64 = 0.63;
 const B: f64 = 1.8;
 const C: f64 = 6.0;
 
-/// Integral of z over D from 0 to 1 [-] (adaptive quadrature to ten digits).
+/// Integral of z over D from 0 to 1 [-], computed by adaptive quadrature.
 pub const AREA: f64 = 0.386_307_29;
 
-/// Steepest slope of z: largest -dz/dD [-].
+/// Largest value of -dz/dD, the steepest decrease of z [-].
 pub const STEEPEST: f64 = 2.040_2;
 
 /// Returns the remaining share z of the strength at the damage D, eq. 3: 1 for D = 0, 0 for D >= 1.
@@ -30,7 +30,7 @@ mod tests {
 
     #[test]
     fn z_decreases_from_one_to_zero_with_the_given_area_and_slope() {
-        // Limit of the formula at D = 0.
+        // z must not jump at D = 0: the formula has the limit 1 there.
         assert!((z(1e-9) - 1.0).abs() < 1e-8 && z(0.0) == 1.0);
         assert_eq!(z(1.0), 0.0);
         let count = 20_000;
@@ -44,7 +44,7 @@ mod tests {
             steepest = steepest.max((from - to) * f64::from(count));
         }
         println!("area {area:.10}, steepest {steepest:.6}");
-        // Tolerance: the number of digits of the constants.
+        // Tolerances: rounding of the constants `AREA` and `STEEPEST`, and differences over 1/20,000.
         assert!((area - AREA).abs() < 1e-7);
         assert!((steepest - STEEPEST).abs() < 1e-3);
     }

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-/// Number of items per chunk, the unit of work of the thread pool. Sums add up each chunk first, so the order of
-/// addition does not depend on the number of threads.
+/// Number of items per chunk, the unit of work of the thread pool. A sum is formed within each chunk and then over the
+/// chunks, so the order of addition does not depend on the number of threads.
 pub const CHUNK: usize = 512;
 
 /// Sums `value` over 0..count in an order that does not depend on the number of threads.

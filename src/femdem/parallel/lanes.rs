@@ -39,7 +39,8 @@ pub trait Lanes:
 }
 
 /// A computation for any lane type. `run` and all functions on lanes that it calls must be `#[inline(always)]`.
-/// Otherwise, the compiler does not use the instructions that [`dispatch`] selects. `map` of an array is not inlined.
+/// Otherwise, the compiler does not use the instructions that [`dispatch`] selects. Do not use `map` on arrays of
+/// lanes, because the compiler does not inline it.
 pub trait WithLanes {
     /// Result of the computation.
     type Output;

@@ -2,7 +2,7 @@
 //!
 //! Every member has the length C, and the unit has the width C. Assumptions: the members are 0.362 C wide in the middle
 //! and 0.181 C at the ends, and the chamfers are proportional to the width. The size of the chamfers follows from the
-//! volume 0.2206 C^3 of the unit that was tested to failure (8 m3 at C = 3.31 m).
+//! volume 0.2206 C^3 of a unit that was tested to failure (8 m3 at C = 3.31 m).
 
 use glam::DVec3;
 
@@ -10,9 +10,9 @@ use super::member::Member;
 use super::section::Section;
 use crate::geometry::convex::polyhedron::{Polyhedron, PolyhedronError};
 
-/// Width of a member over C in the middle and at the ends [-].
+/// Width of a member in the middle and at the ends, divided by C [-].
 const WIDTH: [f64; 2] = [0.362, 0.181];
-/// Length of a chamfer along a side over the local width [-].
+/// Length of a chamfer along a side, divided by the local width [-].
 const CHAMFER: f64 = 0.1146;
 
 /// Members of a Core-Loc of size C [m]: the central member along x, then the upright members at +y and -y.
@@ -45,7 +45,8 @@ pub fn blocks(size_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
 /// Critical sections of a Core-Loc of size C [m], where its members leave the central block.
 pub fn sections(size_m: f64) -> Vec<Section> {
     let width = WIDTH[0] * size_m;
-    // The reach is about half a diagonal, because the sections of both upright members lie in the same planes.
+    // The sections of both upright members lie in the same planes. The reach excludes loads on the other member: 0.75
+    // widths is a little more than half a diagonal of the section (0.71 widths).
     let sections = |member: &Member| member.sections(0.5 * width).map(|section| section.with_reach(0.75 * width));
     members(size_m).iter().flat_map(sections).collect()
 }

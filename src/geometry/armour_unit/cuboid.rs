@@ -50,7 +50,7 @@ mod tests {
         let unit = ArmourUnit::cuboid(edges, 0.05).unwrap();
         let properties = unit.solid.volume_properties();
         assert!((properties.volume - 0.006).abs() < 1e-15 && properties.centre.length() < 1e-15);
-        // m (b^2 + c^2) / 12 about each axis; 1e-12 allows for rounding errors.
+        // The moment of inertia about each axis is m (b^2 + c^2) / 12. Limit 1e-12: rounding errors.
         let mass = 12.0;
         let expected = DMat3::from_diagonal(DVec3::new(0.04 + 0.09, 0.01 + 0.09, 0.01 + 0.04));
         assert!(unit.inertia(mass).abs_diff_eq(expected, 1e-12), "{}", unit.inertia(mass));
@@ -65,7 +65,7 @@ mod tests {
             let face = axis * unit.solid.bounds()[1];
             assert!(part.distance(face).abs() < 1e-15);
         }
-        // A corner is cut by R (sqrt 3 - 1).
+        // The rounding cuts each corner by R (sqrt 3 - 1), with R = 0.05 x 0.3 m = 0.015 m.
         assert!((part.distance(unit.solid.bounds()[1]) - 0.015 * (3f64.sqrt() - 1.0)).abs() < 1e-12);
         assert!((unit.standing_height() - 0.15).abs() < 1e-15);
     }

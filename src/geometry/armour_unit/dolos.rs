@@ -13,9 +13,9 @@ use super::member::Member;
 use super::section::Section;
 use crate::geometry::convex::polyhedron::{Polyhedron, PolyhedronError};
 
-/// Width of the ends of a fluke over the height [-].
+/// Width of the ends of a fluke, divided by the height [-].
 const END_WIDTH: f64 = 0.20;
-/// Length of a chamfer along a side over the height [-], at the fluke ends and along the stem.
+/// Length of a chamfer along a side at the fluke ends and along the stem, divided by the height [-].
 const CHAMFER: f64 = 0.056;
 
 /// Range of waist ratios with published dimensions [-].
@@ -75,14 +75,15 @@ mod tests {
     fn dolos_volume_matches_the_published_formula() {
         for waist in [0.32, 0.34, 0.36, 0.38] {
             let unit = ArmourUnit::dolos(1.0, waist, 0.03).unwrap();
-            // Burcharth et al. (1992).
+            // Formula of Burcharth et al. (1992).
             let published = 0.675 * f64::powf(waist, 1.285);
             println!("r = {waist}: {} H^3, {published}", volume(&unit));
-            // 0.5 % is required from r = 0.34 on, 0.9 % at the lower end of the range of the formula.
+            // The error must be at most 0.5 % for r >= 0.34, and at most 0.9 % at the lower end of the range of the
+            // formula.
             let tolerance = if waist < 0.34 { 0.009 } else { 0.005 };
             assert!((volume(&unit) / published - 1.0).abs() < tolerance, "{waist} {}", volume(&unit));
         }
-        // Shore Protection Manual: 0.16 H^3 at r = 0.32.
+        // The Shore Protection Manual gives 0.16 H^3 for r = 0.32.
         assert!((volume(&ArmourUnit::dolos(2.0, 0.32, 0.03).unwrap()) / 8.0 / 0.16 - 1.0).abs() < 0.02);
     }
 }

@@ -1,9 +1,9 @@
 //! Grooved cube (Antifer block): a slightly tapered cube with a vertical groove in the middle of each side.
 //!
 //! Assumed dimensions relative to the height: width 1.086 at the foot and 1.005 at the top, groove radius 0.12. These
-//! are the usual proportions of Antifer blocks (Frens 2007, relative to the cube root of the volume). Height and cube
-//! root agree, because the volume is 1.003 H^3. Convex blocks cannot form a half-round groove. A rectangular groove of
-//! the same width and sectional area replaces it.
+//! are the usual proportions of Antifer blocks (Frens 2007, relative to the cube root of the volume). This cube root
+//! practically equals the height H, because the volume is 1.003 H^3. Convex blocks cannot form a half-round groove. A
+//! rectangular groove of the same width and sectional area replaces it.
 
 use std::f64::consts::PI;
 
@@ -11,11 +11,11 @@ use glam::DVec3;
 
 use crate::geometry::convex::polyhedron::{Polyhedron, PolyhedronError};
 
-/// Width at foot and top over the height [-].
+/// Width at foot and top, divided by the height [-].
 const WIDTH: [f64; 2] = [1.086, 1.005];
-/// Half of the width of a groove over the height [-].
+/// Half of the width of a groove, divided by the height [-].
 const GROOVE: f64 = 0.12;
-/// Depth over the height of a rectangular groove with the sectional area of a half-round one [-].
+/// Depth of a rectangular groove with the sectional area of a half-round groove, divided by the height [-].
 const DEPTH: f64 = 0.25 * PI * GROOVE;
 
 /// Convex blocks of a grooved cube of the given height [m], centred at mid-height: the core between the grooves and the

@@ -79,7 +79,7 @@ mod tests {
         let blocks = member.blocks().unwrap();
         assert_eq!(blocks.len(), 2);
         let area = |w: f64, c: f64| w * w - 2.0 * c * c;
-        // Frustum of similar sections: h/3 (A + B + sqrt(A B)).
+        // A frustum with similar end sections A and B has the volume h/3 (A + B + sqrt(A B)); here h = 3.
         let (a, b) = (area(2.0, 0.2), area(1.0, 0.1));
         let expected = a + b + (a * b).sqrt();
         for block in blocks {

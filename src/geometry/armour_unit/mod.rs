@@ -1,4 +1,4 @@
-//! Catalogue of armour units: closed surface, convex parts for contact, mass properties, standing pose.
+//! Catalogue of armour units: closed surface, convex parts for contact, mass properties, standing position.
 //!
 //! Body axes have their origin at the centre of mass. A new shape needs a constructor here and its own file with its
 //! surface and parts.
@@ -32,7 +32,7 @@ pub enum ArmourUnitError {
     #[error("height and edges of a unit must be positive, not {0} m")]
     Length(f64),
     /// The rounding radius does not fit the shape.
-    #[error("the rounding radius over the unit height is {share}, but must be greater than 0 and at most {largest:.4}")]
+    #[error("the rounding radius divided by the unit height is {share}, but must be above 0 and at most {largest:.4}")]
     Rounding { share: f64, largest: f64 },
     /// The waist ratio of a Dolos is out of range.
     #[error("the waist ratio of a Dolos must be between {} and {}, not {waist}", allowed[0], allowed[1])]
@@ -45,7 +45,8 @@ pub enum ArmourUnitError {
     Surface(#[from] SolidError),
 }
 
-/// Largest rounding radius over the inscribed radius of the thinnest block [-]; a larger one leaves too small a core.
+/// Largest rounding radius, divided by the inscribed radius of the thinnest block [-]. A larger radius would leave too
+/// small a core.
 pub const LARGEST_ROUNDING: f64 = 0.9;
 
 /// Shape of an armour unit.
@@ -67,7 +68,7 @@ pub struct ArmourUnit {
 
 impl ArmourUnit {
     /// Tetrapod of height `height_m` [m]. In all constructors, `rounding_share` is the rounding radius of the contact
-    /// surface over the height [-].
+    /// surface, divided by the height [-].
     pub fn tetrapod(height_m: f64, rounding_share: f64) -> Result<Self, ArmourUnitError> {
         check_length(height_m)?;
         let largest = tetrapod::LARGEST_ROUNDING;
@@ -97,7 +98,7 @@ impl ArmourUnit {
         Ok(Self { edges: Some(edges_m), ..Self::of_blocks(edges_m.z, &[block], rounding_share, DQuat::IDENTITY)? })
     }
 
-    /// Dolos of height `height_m` [m]; `waist` is the waist ratio, the width of the stem over the height [-].
+    /// Dolos of height `height_m` [m]; `waist` is the waist ratio, the width of the stem divided by the height [-].
     pub fn dolos(height_m: f64, waist: f64, rounding_share: f64) -> Result<Self, ArmourUnitError> {
         let [low, high] = dolos::WAIST_RATIOS;
         if !(low..=high).contains(&waist) {
@@ -117,7 +118,7 @@ impl ArmourUnit {
         Self::of_blocks(height_m, &blocks, rounding_share, DQuat::IDENTITY)
     }
 
-    /// Unit with the given surface and convex parts; the orientation of the surface is the standing orientation.
+    /// Unit with the given surface and convex parts; the unit stands in the orientation of this surface.
     pub fn from_parts(solid: &Solid, parts: &[Polyhedron], rounding_share: f64) -> Result<Self, ArmourUnitError> {
         let [low, high] = solid.bounds();
         let unit = Self::of_solid(high.z - low.z, solid.clone(), parts, rounding_share, DQuat::IDENTITY)?;
@@ -266,7 +267,7 @@ mod tests {
         assert!((core_loc / 8.0 - 1.0).abs() < 0.005, "{core_loc}");
         let grooved = volume(&ArmourUnit::grooved_cube(1.0, 0.03).unwrap());
         println!("grooved cube {grooved} H^3");
-        // 0.5 %: the published lengths have three digits.
+        // Limit 0.5 %: the published lengths have three digits.
         assert!((grooved - 1.0).abs() < 0.005, "{grooved}");
     }
 
@@ -280,10 +281,10 @@ mod tests {
             let q = unit.standing_rotation(0.0);
             let foot = unit.standing_height() - unit.rounding;
             let ends = unit.parts.iter().flat_map(|p| p.ends(DVec3::Z).collect::<Vec<_>>()).map(|c| q * c);
-            // 1e-6: faces of the hull are merged within single precision.
+            // Tolerance 1e-6: faces of the hull are merged within single precision.
             let down: Vec<DVec3> = ends.filter(|c| c.z < -foot + 1e-6).collect();
             assert!(down.len() >= 3, "{down:?}");
-            // The centre of mass projects inside the support polygon.
+            // The vertical line through the centre of mass passes inside the support polygon.
             for k in 0..36 {
                 let direction = DQuat::from_rotation_z(f64::from(k) * 0.1745) * DVec3::X;
                 assert!(down.iter().any(|c| c.dot(direction) > 0.0));
@@ -303,7 +304,7 @@ mod tests {
                 }
             }
             let distance_to = |p: DVec3| unit.parts.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
-            // A corner of three faces at about right angles: R (sqrt 3 - 1) = 0.022.
+            // A corner of three faces at about right angles protrudes from the rounded parts by R (sqrt 3 - 1) = 0.022.
             let corner = unit.solid.vertices().iter().map(|v| distance_to(*v)).fold(0.0, f64::max);
             assert!(corner < 0.022, "{corner}");
         }

@@ -66,12 +66,13 @@ mod tests {
         let [b, l, f] = [0.2, 1.0, 3e3];
         let root = Section::chamfered(DVec3::ZERO, DVec3::X, [b, b], 0.0);
         let bent = root.stress(DVec3::X * l, DVec3::Z * f).unwrap();
-        // Bending: 6 F l / b^3. Tension along the axis: F / b^2. 1e-12 allows for rounding errors.
+        // The stress is 6 F l / b^3 in bending, and F / b^2 in tension along the axis. 1e-12 allows for rounding
+        // errors.
         assert!((bent / (6.0 * f * l / b.powi(3)) - 1.0).abs() < 1e-12);
         let pulled = root.stress(DVec3::X * l, DVec3::X * f).unwrap();
         assert!((pulled / (f / (b * b)) - 1.0).abs() < 1e-12);
         assert_eq!(root.stress(DVec3::NEG_X, DVec3::Z), None);
-        // A point of the adjacent bar.
+        // A point outside the reach, for example on an adjacent bar.
         assert_eq!(root.with_reach(b).stress(DVec3::new(l, 2.0 * b, 0.0), DVec3::Z), None);
     }
 
@@ -79,7 +80,7 @@ mod tests {
     fn fully_chamfered_square_equals_a_square_rotated_by_45_degrees() {
         let b = 0.2;
         let cut = Section::chamfered(DVec3::ZERO, DVec3::X, [b, b], 0.5 * b);
-        // Side b / sqrt 2; the second moment of a square is side^4 / 12 about any axis.
+        // The rotated square has the side b / sqrt 2. The second moment of a square is side^4 / 12 about any axis.
         let side = b / 2f64.sqrt();
         assert!((cut.area / (side * side) - 1.0).abs() < 1e-12);
         assert!((cut.modulus / (side.powi(4) / 12.0 / (0.5 * b)) - 1.0).abs() < 1e-12);

@@ -12,13 +12,13 @@ use glam::DVec3;
 use super::section::Section;
 use crate::geometry::convex::convex_part::{ConvexPart, TruncatedCone};
 
-/// Radius of the tip over the height H [-].
+/// Radius of the tip, divided by the height H [-].
 const TIP_RADIUS: f64 = 0.151;
-/// Radius of the base of a leg over the height H [-].
+/// Radius of the base of a leg, divided by the height H [-].
 const BASE_RADIUS: f64 = 0.235;
-/// Length of a leg from base to tip over the height H [-].
+/// Length of a leg from base to tip, divided by the height H [-].
 const LEG_LENGTH: f64 = 0.477;
-/// Distance from the centre to the tip over the height H [-].
+/// Distance from the centre to the tip, divided by the height H [-].
 const CENTRE_TO_TIP: f64 = 0.644;
 /// Number of points around a leg; a multiple of 6 includes the corners where three legs meet. The polygon's area is
 /// 1 - (2 pi / 72)^2 / 6 = 99.87 % of the area of the circle.
@@ -52,7 +52,7 @@ fn taper() -> f64 {
     (BASE_RADIUS - TIP_RADIUS) / LEG_LENGTH
 }
 
-/// Radius of the extended cone at the centre over H [-].
+/// Radius of the extended cone at the centre, divided by H [-].
 fn centre_radius() -> f64 {
     TIP_RADIUS + CENTRE_TO_TIP * taper()
 }
@@ -101,8 +101,9 @@ pub fn surface(height_m: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
 
 /// Point where the generatrix of the cone of `leg` in the direction `out` meets the nearest crease, relative to H [-].
 ///
-/// On the generatrix p = s a + (r_0 - s t) n, with axis a, taper t and n = `out`. p is equally far from the axes a and
-/// b if p.(a - b) = 0, which is linear in s.
+/// A point of the generatrix is p = s a + (r_0 - s t) n, with the axis a, the distance s along it, the radius r_0 at
+/// the centre, the taper t and n = `out`. p is equally far from the axes a and b if p.(a - b) = 0, which is linear in
+/// s.
 fn crease_point(axes: &[DVec3; 4], leg: usize, out: DVec3) -> DVec3 {
     let a = axes[leg];
     let (r_0, t) = (centre_radius(), taper());
@@ -131,7 +132,7 @@ fn crease_vertex(point: DVec3, height_m: f64, vertices: &mut Vec<DVec3>, creases
     index
 }
 
-/// Largest rounding radius over H for which the rounded cores reach the creases [-].
+/// Largest rounding radius, divided by H, for which the rounded cores reach the creases [-].
 pub const LARGEST_ROUNDING: f64 = 0.07;
 
 /// Convex parts, one per leg. The core is the cone, shrunk by `rounding_m` [m] at side and tip; core plus ball then
@@ -166,7 +167,7 @@ mod tests {
     #[test]
     fn tetrapod_has_the_volume_and_inertia_of_its_dimensions() {
         let properties = unit().solid.volume_properties();
-        // 0.5 %: the polygon of 72 sides reduces the sectional area of each leg by 0.13 %.
+        // Limit 0.5 %: the polygon of 72 sides reduces the sectional area of each leg by 0.13 %.
         assert!((properties.volume / 0.2799 - 1.0).abs() < 0.005, "volume {}", properties.volume);
         assert!(properties.centre.length() < 1e-9, "centre {}", properties.centre);
         let inertia = unit().inertia(1.0);
@@ -181,7 +182,7 @@ mod tests {
     fn standing_tetrapod_has_height_h_and_one_leg_seaward() {
         let unit = unit();
         let [low, high] = unit.solid.bounds();
-        // The dimensions are given to three digits.
+        // Limit 0.003: the dimensions have three digits.
         assert!((high.z - low.z - 1.0).abs() < 0.003, "height {}", high.z - low.z);
         assert!(low.x < -0.6 && high.x < 0.6);
         // The rounded rim of the tips lowers the centre of mass slightly.
@@ -194,7 +195,8 @@ mod tests {
         let unit = unit();
         let distance_to = |p: DVec3| unit.parts.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
         let rim = unit.solid.vertices().iter().map(|v| distance_to(*v)).fold(0.0, f64::max);
-        // Only the sharp rim protrudes from the parts: R (sqrt 2 - 1) = 0.0207 at a right angle, more here.
+        // Only the sharp rim protrudes from the parts: by R (sqrt 2 - 1) = 0.0207 at a right angle, and by more at this
+        // rim.
         assert!(rim < 0.025, "{rim}");
         for v in unit.solid.vertices() {
             // The vertices lie on the exact cones, so none lies inside a part; 1e-9 allows for rounding errors.
@@ -207,7 +209,7 @@ mod tests {
                 let angle = 0.1 * k as f64;
                 let n = (axis * angle.cos() + side * angle.sin()).normalize();
                 let p = part.support(n) + n * part.rounding();
-                // 4e-4: the mesh lies up to 0.26 (1 - cos(pi/72)) = 2.5e-4 inside the true cone.
+                // Limit 4e-4: the mesh lies up to 0.26 (1 - cos(pi/72)) = 2.5e-4 inside the true cone.
                 assert!(unit.solid.signed_distance(p) < 4e-4, "leg {leg} angle {angle}");
             }
         }
@@ -221,7 +223,7 @@ mod tests {
             let (a, b) = (0.7 * i as f64, 0.37 * i as f64);
             let p = DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos()) * (0.7 + 0.001 * i as f64);
             let exact = sharp.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
-            // 3e-4 H: distance between chord and circle with 72 points around a leg.
+            // Limit 3e-4 H: the distance between chord and circle with 72 points around a leg.
             assert!((unit.solid.signed_distance(p) - exact).abs() < 3e-4);
         }
     }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// A half-space: normal . x <= offset.
+/// A half-space: the points x with normal . x <= offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfSpace {
     /// Outward unit normal.

@@ -20,8 +20,8 @@ pub enum PolyhedronError {
     TooManyFaces,
 }
 
-/// Largest number of faces of a hull. Contact allows about as many corners plus edges, and the cost of the contact
-/// search grows with the square of this number.
+/// Largest number of faces of a hull. The contact search allows about the same number of corners plus edges. Its cost
+/// grows with the square of this number.
 const MAX_FACES: usize = 1000;
 
 /// Distance below which two corners are merged, relative to the size of the polyhedron [-].
@@ -332,7 +332,7 @@ mod tests {
             [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| DVec3::new(half * x, half * y, z))
         };
         let frustum = Polyhedron::hull_of_polygons(&square(2.0, 1.0), &square(1.0, 4.0)).unwrap();
-        // h/3 (A + B + sqrt(A B))
+        // The volume of a frustum is h/3 (A + B + sqrt(A B)), with h = 3 and the end areas A = 16 and B = 4.
         assert!((frustum.volume() - (16.0 + 4.0 + 8.0)).abs() < 1e-9, "{}", frustum.volume());
         let smaller = frustum.shrunk(0.1).unwrap();
         assert_eq!(smaller.corners().len(), 8);

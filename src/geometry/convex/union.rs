@@ -78,7 +78,7 @@ fn triangulate(pieces: &[Vec<DVec3>], tolerance: f64) -> (Vec<DVec3>, Vec<[u32; 
         if whole.len() == ring.len() {
             triangles.extend(whole[1..].windows(2).map(|pair| [whole[0] as u32, pair[0] as u32, pair[1] as u32]));
         } else {
-            // With points on the edges, a fan of triangles from a corner would be degenerate: start from the middle.
+            // With points on the edges, a fan from a corner would have triangles without area. Start from the middle.
             vertices.push(ring.iter().map(|&v| corners[v]).sum::<DVec3>() / ring.len() as f64);
             let middle = (vertices.len() - 1) as u32;
             let next = whole.iter().cycle().skip(1);
@@ -133,7 +133,7 @@ mod tests {
         // 1e-12 allows for rounding errors, here and below.
         let blocks = [block([0.0; 3], [2.0, 1.0, 1.0]), block([0.5, 0.5, -1.0], [1.5, 3.0, 0.5])];
         assert!((volume(&blocks) - (2.0 + 3.75 - 0.25)).abs() < 1e-12);
-        // Three crossing bars: every long face is split.
+        // Three bars cross, so every long face is split.
         let cross = [
             block([-3.0, -1.0, -1.0], [3.0, 1.0, 1.0]),
             block([-1.0, -3.0, -1.0], [1.0, 3.0, 1.0]),

@@ -1,4 +1,4 @@
-//! Reading of the datasets of `impacts.h5`, and their conversion to impacts.
+//! Reads the datasets of `impacts.h5`, and converts them to impacts.
 
 use glam::{DQuat, DVec3};
 use hdf5_metno::{File, Group};
@@ -7,7 +7,7 @@ use super::{FluidAtPeak, Impact, Impacts, NO_BODY, PARTNER, PartnerNumbers, Pres
 use crate::output::state_file::{Hdf5Result, read_rows, read_vectors};
 use crate::rigid::{BodyState, ContactEvent, Feature, ForceSample, Load};
 
-/// The datasets of an impact file, unconverted.
+/// The datasets of `impacts.h5` as they are in the file.
 pub struct Columns {
     numbers: Vec<u64>,
     units: Vec<u32>,
@@ -107,7 +107,7 @@ impl Columns {
     }
 }
 
-/// A contact event in which all values are zero, as a start value.
+/// A contact event whose numbers are zero and whose state before the impact is unknown, as a start value.
 pub const NO_EVENT: ContactEvent = ContactEvent {
     number: 0,
     start: 0.0,
@@ -141,7 +141,7 @@ fn partner([kind, number, image, part]: PartnerNumbers) -> Option<Feature> {
     })
 }
 
-/// Reads the states of the bodies. Their number is the number of rows of the shortest dataset.
+/// Reads the states of the bodies. If the datasets have different lengths, the shortest one gives the number of states.
 fn read_bodies(group: &Group, prefix: &str) -> Hdf5Result<Vec<BodyState>> {
     let positions = read_vectors(group, &format!("{prefix}position_m"))?;
     let rotations = read_rows(group, &format!("{prefix}rotation_xyzw"))?.into_iter().map(DQuat::from_array);

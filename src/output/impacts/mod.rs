@@ -2,12 +2,14 @@
 //!
 //! | group | content, one row per impact |
 //! | --- | --- |
-//! | `impacts` | bodies, position, velocities, peak, impulse, body states before impact, water load; NaN if absent |
+//! | `impacts` | bodies, position, velocities, forces, body states before the impact, water load; NaN if absent |
 //! | `history` | force samples of all impacts, concatenated; impact k has the rows `offset[k]..offset[k + 1]` |
-//! | `pressure` | pressure at the boundary particles, NaN where it is unknown |
+//! | `pressure` | water pressure at the boundary particles of the unit; NaN if unknown |
 //!
 //! Units count from 1 as in the tables. `partner_kind` is 0 for a unit, 1 for the bed profile, 2 for the terrain
-//! surface, 3 for a wall. `partner_number` is the number of this unit, segment, face or wall.
+//! surface, 3 for a wall. `partner_number` is the number of the unit; on the bed, 2 k for strip k or 2 k + 1 for the
+//! convex corner after strip k; on the terrain, the number of the triangle, ridge or corner; for walls, 0 at y = 0,
+//! 1 at y = width, 2 seaward, 3 shoreward. All these numbers except those of units count from 0.
 
 mod columns;
 
@@ -48,7 +50,8 @@ pub struct FluidAtPeak {
 pub struct Impact {
     /// Bodies, position, velocities, peak force and impulse; times are flume times [s].
     pub event: ContactEvent,
-    /// Contact force on the unit `event.body` over flume time, without gaps. The opposite force acts on the partner.
+    /// Contact force on the unit `event.body`: samples in order of flume time, without gaps between them. The opposite
+    /// force acts on the partner.
     pub history: Vec<ForceSample>,
     /// Water load in the time step with the peak force; `None` in dry tests.
     pub fluid: Option<FluidAtPeak>,
@@ -63,7 +66,7 @@ pub struct Impacts {
     pub impacts: Vec<Impact>,
 }
 
-/// Text of the state file, in JSON.
+/// JSON text in the file: the data that are not arrays.
 #[derive(Serialize, Deserialize)]
 struct Header {
     version: u32,
@@ -92,8 +95,8 @@ const VECTORS: [Vector; 5] = [
 ];
 
 impl Impact {
-    /// Creates an impact from a contact and the water load at its peak force. `offset` [s] converts the times to flume
-    /// time.
+    /// Creates an impact from a contact and the water load at its peak force. `offset` [s] is added to the times of the
+    /// contact to give flume times.
     pub fn new(contact: &RecordedContact, offset: f64, fluid: Option<FluidAtPeak>) -> Self {
         let in_flume_time = |sample: &ForceSample| ForceSample { start: sample.start + offset, ..*sample };
         let history = contact.history.samples().iter().map(in_flume_time).collect();
@@ -128,13 +131,13 @@ impl Impacts {
         let header: Header = serde_json::from_str(&text).map_err(OutputError::json(path))?;
         if header.version != VERSION {
             let what = format!(
-                "has layout {}, written by another version of breakwater; repeat the run with this version",
+                "has layout {}, written by another version of breakwater; rerun the case with this version",
                 header.version
             );
             return Err(OutputError::content(path, what));
         }
         let damaged = |name: &str| {
-            let what = format!("is damaged: `{name}` does not match the number of impacts; repeat the run");
+            let what = format!("is damaged: `{name}` does not match the number of impacts; rerun the case");
             OutputError::content(path, what)
         };
         columns.into_impacts().map_err(damaged)

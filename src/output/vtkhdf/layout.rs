@@ -10,7 +10,7 @@ use super::{FieldKind, FieldValues};
 
 pub(super) type Hdf5Result<T> = hdf5_metno::Result<T>;
 
-/// Rows per chunk in datasets with one row per point or cell (64 KiB for one f32 per row).
+/// Rows per chunk in datasets with one row per point or cell. A chunk with one f32 per row has 64 KiB.
 pub(super) const LONG_CHUNK: usize = 16_384;
 /// Rows per chunk in the datasets with one row per step (recorded time).
 pub(super) const STEP_CHUNK: usize = 256;
@@ -146,13 +146,13 @@ pub(super) fn append_rows_of<const N: usize>(dataset: &Dataset, rows: &[[f32; N]
     Ok(start)
 }
 
-/// Sets one row of a dataset of one column, and sets its length to `row + 1`.
+/// Sets one row of a dataset of one column, and sets the length of the dataset to `row + 1`.
 pub(super) fn set_row<T: H5Type + Copy>(dataset: &Dataset, row: usize, value: T) -> Hdf5Result<()> {
     dataset.resize(row + 1)?;
     dataset.write_slice::<_, T, _, _>(&[value], row..=row)
 }
 
-/// Sets one row of a dataset of four columns, and sets its length to `row + 1`.
+/// Sets one row of a dataset of four columns, and sets the length of the dataset to `row + 1`.
 pub(super) fn set_row_of_4(dataset: &Dataset, row: usize, values: [i64; 4]) -> Hdf5Result<()> {
     dataset.resize((row + 1, 4))?;
     dataset.write_slice::<_, i64, _, _>(&[values], (row..=row, ..))

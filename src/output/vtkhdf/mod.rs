@@ -1,9 +1,10 @@
 //! Moving points and surfaces for ParaView: VTKHDF temporal PolyData (version 2.0), one file per series.
 //!
 //! Layout: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/>. Every step (recorded time) is one
-//! part. All cells of a kind have the same number of corners n. Therefore all steps share one list `Offsets` 0, n, 2n,
-//! ..., as long as the longest step needs. Connectivity is written again only if it differs from the previous step.
-//! `NSteps` is written last, and then the file is flushed, so that a killed run leaves a file of complete steps.
+//! part of the file. All cells of a kind have the same number of corners n. Therefore all steps share one list
+//! `Offsets`: 0, n, 2n, ..., long enough for the step with most cells. Connectivity (the corner points of the cells) is
+//! written again only if it differs from the previous step. `NSteps` is written last, and then the file is flushed, so
+//! that a killed run leaves a file of complete steps.
 
 use std::path::{Path, PathBuf};
 

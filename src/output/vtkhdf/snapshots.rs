@@ -1,4 +1,4 @@
-//! Reading of the water particles of a run at each recorded time.
+//! Reads the water particles of a run at each recorded time.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ pub struct WaterSnapshots {
     path: PathBuf,
     file: File,
     times_s: Vec<f64>,
-    /// Number of particles at each recorded time, and the first rows of their points and velocities.
+    /// For each recorded time: number of particles, and first rows of their positions and of their velocities.
     counts: Vec<usize>,
     point_starts: Vec<usize>,
     velocity_starts: Vec<usize>,

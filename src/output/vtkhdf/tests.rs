@@ -23,7 +23,7 @@ fn the_number_of_particles_may_change_from_step_to_step() {
     for (step, count) in [5, 3, 7, 0, 2].into_iter().enumerate() {
         append_particles(&mut series, step, count);
     }
-    // The copy is made while the series is still open, so it is the file that a killed run would leave.
+    // The copy is made while the series is still open. It is therefore the same file as after a killed run.
     let left_behind = folder.path().join("killed.vtkhdf");
     std::fs::copy(&path, &left_behind).unwrap();
     let file = File::open(&left_behind).unwrap();

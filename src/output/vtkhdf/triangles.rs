@@ -1,4 +1,4 @@
-//! Reading of triangles at each recorded time: surfaces, cracks, section planes.
+//! Reads triangles at each recorded time: surfaces, cracks, cut planes.
 
 use std::path::{Path, PathBuf};
 
@@ -39,7 +39,7 @@ impl TriangleMoments {
         &self.times_s
     }
 
-    /// Reads the corners of all triangles at the recorded time with the index `moment` [m].
+    /// Reads the corners [m] of all triangles at the recorded time with the index `moment`.
     ///
     /// # Errors
     /// If the file cannot be read.
@@ -58,7 +58,8 @@ impl TriangleMoments {
         read().map_err(OutputError::hdf5(&self.path))
     }
 
-    /// Reads a field with one number per point; returns its value at the first corner of each triangle.
+    /// Reads a field with one number per point at the recorded time with the index `moment`. Returns the value at the
+    /// first corner of each triangle.
     ///
     /// # Errors
     /// If the file cannot be read, or does not have the field.

@@ -1,8 +1,8 @@
 //! Tetrahedra for ParaView: VTKHDF temporal UnstructuredGrid, one file per series.
 //!
-//! As in [`super::PolyDataSeries`], every step is one part. Connectivity is written again only after nodes have
-//! separated. `Offsets` and `Types` are the same in every step. They are still written in every step, because VTK
-//! expects the offsets of each part after the offsets of the previous parts.
+//! As in [`super::PolyDataSeries`], every step (recorded time) is one part of the file. Connectivity (the nodes of the
+//! tetrahedra) is written again only after nodes have separated. `Offsets` and `Types` are the same in every step. They
+//! are still written in every step, because VTK expects the offsets of each part after those of the previous parts.
 
 use std::path::{Path, PathBuf};
 

@@ -24,7 +24,7 @@ pub fn in_words(breakage: &Breakage) -> String {
     }
     let others = units_with(None).len();
     if others > 0 {
-        words += &format!("; {others} of {} units not re-run, counted as not broken", breakage.units.len());
+        words += &format!("; {others} of {} units had no re-run impact and count as not broken", breakage.units.len());
     }
     words + "."
 }
@@ -53,8 +53,8 @@ mod tests {
         };
         assert_eq!(
             words(&[Some(true), None, Some(false), Some(true)]),
-            "in a prototype 50 times as large, units 1, 4 broke; unit 3 did not break; 1 of 4 units not re-run, \
-             counted as not broken."
+            "in a prototype 50 times as large, units 1, 4 broke; unit 3 did not break; 1 of 4 units had no \
+             re-run impact and count as not broken."
         );
         assert_eq!(words(&[Some(false)]), "in a prototype 50 times as large, no unit broke; unit 1 did not break.");
     }

@@ -42,7 +42,7 @@ pub struct RunResult {
     pub mean_m: f64,
     /// Deviation of the mean displacement from the measured mean of all units, (run - measured) / measured [%].
     pub deviation_percent: f64,
-    /// Deviation of the mean displacement from the measured mean of the inner units [%].
+    /// Deviation of the mean displacement from the measured mean of the inner units, which do not stand at a wall [%].
     pub inner_deviation_percent: f64,
     /// Share of the units that moved further than the damage distance of the reference [-].
     pub damage_ratio: f64,
@@ -115,7 +115,7 @@ impl RunResult {
     }
 }
 
-/// Index of a unit of the experiment, or of a unit of a slice.
+/// Index (from 0) of a unit of the experiment, or of a unit of a slice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum UnitIndex {
     Unit(usize),
@@ -132,7 +132,8 @@ impl fmt::Display for UnitIndex {
 }
 
 impl WaveComparison {
-    /// Returns the units of the experiment, then the units of the slices, which are not units of the experiment.
+    /// Returns the units of the experiment, then the units of the largest slice. A unit of a slice represents the inner
+    /// units; it does not correspond to one unit of the experiment.
     fn units(&self) -> Vec<UnitIndex> {
         let most = |slices: bool| {
             let runs = self.runs.iter().filter(|run| run.is_slice_of(&self.reference) == slices);
@@ -188,9 +189,9 @@ impl WaveComparison {
             let (units, all) = (run.summary.units.len(), self.reference.units());
             if run.is_slice_of(&self.reference) {
                 remarks.push(format!(
-                    "{}: {units} of {all} units. The run is a slice that represents the inner units of the row; \
-                     its units are not the first {units} units of the experiment. Its mean displacement deviates \
-                     from the measured mean of the inner units ({} to {}) by {} %.",
+                    "{}: the run has {units} units, the experiment has {all}. The run is a slice that represents the \
+                     inner units of the row; its units do not correspond to units 1 to {units} of the experiment. Its \
+                     mean displacement deviates from the measured mean of the inner units ({} to {}) by {} %.",
                     run.name,
                     self.reference.inner.start + 1,
                     self.reference.inner.end,
@@ -222,8 +223,9 @@ impl Comparison {
         Ok([html, csv])
     }
 
-    /// Writes one row per wave and unit. Units of a slice have separate rows with `slice` = 1, and their numbers start
-    /// at 1. A field is empty if the series or run does not have the unit.
+    /// Writes one row per wave and unit. Rows with `slice` = 0 are for the units of the experiment and of runs with all
+    /// units. Rows with `slice` = 1 are for the units of the slices (runs with fewer units); their numbers start at 1,
+    /// too. A field is empty if the series or run does not have the unit.
     fn write_csv(&self, path: &Path) -> Result<(), OutputError> {
         let has_periods = self.waves.iter().any(|wave| wave.reference.period_s.is_some());
         let mut columns = vec!["wave_height_m".to_owned()];
@@ -291,7 +293,8 @@ mod tests {
         let comparison = compare(&[&sph1, &slice, &low], &fudo).unwrap();
         assert_eq!(comparison.waves.iter().map(|w| w.runs.len()).collect::<Vec<_>>(), [1, 2]);
         let [full, slice] = &comparison.waves[1].runs[..] else { panic!("two runs") };
-        // Table 6 of the paper gives 2.0 % for dp = 0.005 m. The displacements in its appendix have three decimals.
+        // Table 6 of Mitsui et al. (2023) gives +2.0 % for dp = 0.005 m, with the opposite sign convention. The
+        // displacements in its appendix are rounded to three decimals; the limit of 0.1 % allows for this.
         assert!((full.deviation_percent + 2.0).abs() < 0.1, "{}", full.deviation_percent);
         assert_eq!((full.damage_ratio, slice.damage_ratio), (1.0, 0.5));
         let text = comparison.to_string();
@@ -299,7 +302,7 @@ mod tests {
         {
             assert!(text.contains(words), "{words} in\n{text}");
         }
-        // Only one of the runs has a breakage analysis.
+        // Only the run `slice` has a breakage analysis.
         let broken: Vec<&str> = text.lines().filter(|line| line.starts_with("broken [%]")).collect();
         let [line] = broken[..] else { panic!("one line in\n{text}") };
         assert_eq!(line.split_whitespace().collect::<Vec<_>>(), ["broken", "[%]", "-", "25"]);

@@ -37,7 +37,7 @@ fn means(wave: &WaveComparison) -> String {
     let reference = &wave.reference;
     let deviation = |percent: f64| format!("{percent:+.1}").replace('-', "\u{2212}");
     let spacing = |dp_m: f64| short(1000.0 * dp_m, 2);
-    // The measurements have no breakage, because the units of a physical model do not break.
+    // Measurements have no value for breakage, because the units of a physical model do not break.
     let has_broken = wave.has_breakage();
     let row = |name: &str, dp: String, units: usize, mean: f64, damage: f64, broken: Option<f64>, deviation: String| {
         let name = escape(name);

@@ -46,7 +46,7 @@ fn write_wave(f: &mut fmt::Formatter<'_>, wave: &WaveComparison) -> fmt::Result 
     reference.series.iter().try_for_each(|series| write!(f, "{:>column$.0}", damaged(series)))?;
     wave.runs.iter().try_for_each(|run| write!(f, "{:>width$.0}", 100.0 * run.damage_ratio))?;
     if wave.has_breakage() {
-        // The measurements have no breakage, because the units of a physical model do not break.
+        // Measurements have no value for breakage, because the units of a physical model do not break.
         write!(f, "\n{:LABEL$}{:>2$}", "broken [%]", "", reference.series.len() * column)?;
         let ratio = |run: &RunResult| run.breakage.as_ref().map(|breakage| 100.0 * breakage.broken_ratio);
         wave.runs.iter().try_for_each(|run| match ratio(run) {
@@ -68,7 +68,7 @@ fn write_wave(f: &mut fmt::Formatter<'_>, wave: &WaveComparison) -> fmt::Result 
 
 /// Writes the deviation of the mean displacement for each particle spacing: published simulations, then the runs.
 fn write_resolutions(f: &mut fmt::Formatter<'_>, wave: &WaveComparison) -> fmt::Result {
-    writeln!(f, "Deviation of the mean displacement from the measured mean by particle spacing:")?;
+    writeln!(f, "Deviation of the mean displacement from the measured mean, for each particle spacing:")?;
     for resolution in &wave.reference.convergence {
         let dp = 1000.0 * resolution.dp_m;
         write!(f, "  {dp:>5.1} mm {:>+8.1} %  published", resolution.deviation_percent)?;

@@ -9,7 +9,7 @@ const WIDE: [f64; 2] = [920.0, 380.0];
 /// Size of a low full-width chart [px].
 const LOW: [f64; 2] = [920.0, 220.0];
 
-/// Terms of the energy balance: column of `energy.csv`, name in the legend, colour, dashed line.
+/// Terms of the energy balance: column of `energy.csv`, name in the legend, colour, true for a dashed line.
 const TERMS: [(&str, &str, usize, bool); 10] = [
     ("kinetic_j", "kinetic", 0, false),
     ("strain_j", "elastic strain", 2, false),
@@ -28,7 +28,7 @@ pub fn energy(run: &FractureFolder) -> String {
     chart(run, "Energy balance", "energy [J]", terms(run, |_| true), WIDE)
 }
 
-/// Chart of the dissipated energy and of the energy released by tied joints, with a separate vertical scale.
+/// Chart of the dissipated energy and of the energy released by tied joints, with its own vertical scale.
 pub fn losses(run: &FractureFolder) -> String {
     let is_loss = |column: &str| ["viscous_j", "fracture_j", "friction_j", "freed_j"].contains(&column);
     chart(run, "Dissipated energy", "energy [J]", terms(run, is_loss), LOW)

@@ -2,7 +2,7 @@
 
 use crate::simulation::fracture::summary::InitiationSummary;
 
-/// Largest number of main cracks. These are the largest cracks; the report shows when and where they start.
+/// Largest number of main cracks: the largest cracks, for which the report shows when and where they start.
 const MAIN_CRACKS: usize = 4;
 /// Minimum number of moments that are shown, if the run recorded enough.
 const LEAST: usize = 6;
@@ -21,7 +21,7 @@ pub struct Moment {
 /// Why a moment is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Why {
-    /// The first moment after the impact, or the start of the run.
+    /// The first moment after the impact or, if no bodies touched, the start of the run.
     Impact,
     /// A main crack has just started.
     Crack,

@@ -27,7 +27,7 @@ pub fn cracks(run: &FractureFolder) -> String {
     if all.len() > MAX_ROWS {
         let rest: f64 = all[MAX_ROWS..].iter().map(|crack| crack.area_m2).sum();
         rows += &format!(
-            "<tr class=\"sum\"><td colspan=\"8\">{} more in summary.json</td><td>{}</td></tr>\n",
+            "<tr class=\"sum\"><td colspan=\"8\">{} more cracks, listed in summary.json</td><td>{}</td></tr>\n",
             all.len() - MAX_ROWS,
             short(rest * 1e4, 1)
         );

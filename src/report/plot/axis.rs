@@ -47,7 +47,7 @@ impl Axis {
 
     /// Formats a tick value with as many decimals as the distance between the ticks needs.
     pub fn number(&self, tick: f64) -> String {
-        // The tolerance covers the rounding error of i * step.
+        // The tolerance covers the rounding error of the scaled step.
         let decimals = (0..9).find(|d| {
             let scaled = self.step * 10_f64.powi(*d);
             (scaled - scaled.round()).abs() < 1e-6 * scaled
@@ -58,7 +58,8 @@ impl Axis {
     }
 }
 
-/// Smallest and largest finite value. The range is widened if both are equal, and is 0 to 1 without values.
+/// Smallest and largest finite value. The range is widened if both are equal. Without values, or if all values are
+/// zero, the range is 0 to 1.
 fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values
         .into_iter()

@@ -28,7 +28,8 @@ pub struct BarChart {
     pub groups: Vec<String>,
     /// The series of the chart.
     pub bars: Vec<Bars>,
-    /// True if all series share one position in a group. Each group should then have only one finite value.
+    /// True if the bars of all series in a group are drawn at the same position. Each group should then have only one
+    /// finite value.
     pub stacked: bool,
     /// Horizontal lines: value and label.
     pub marks: Vec<(f64, String)>,

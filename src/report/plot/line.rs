@@ -17,7 +17,7 @@ pub struct Line {
     pub faint: bool,
     /// True if each point has a dot.
     pub dots: bool,
-    /// Half height of a shaded band around the line, one value per point; if it is empty, there is no band.
+    /// Half height of a shaded band around the line, in the unit of y, one value per point. If empty, there is no band.
     pub band: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Line, bar and tornado charts as SVG: inline in a page, with its style sheet, or as files with their own style sheet.
+//! Line, bar and tornado charts as SVG: inline in a page, which has the style sheet, or as files with style sheet.
 //!
 //! The CSS classes `c0` to `c5` are the colours of the palette. The palette suits colour-blind readers (Okabe & Ito
 //! 2008) and differs between light and dark pages.

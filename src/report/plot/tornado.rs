@@ -66,8 +66,8 @@ impl TornadoChart {
         svg + "</svg>\n"
     }
 
-    /// Creates an axis of a length [px] with space for the labels at the ends of the bars. `bars` has the label width
-    /// [px] and the change of each bar. Label widths are fixed in pixels, so that the bars get the remaining length.
+    /// Creates an axis of a length [px] with space for the labels at the ends of the bars. `bars` lists the label width
+    /// [px] and the change of each bar. The labels have a fixed width in pixels; the bars get the remaining length.
     fn axis(&self, length: f64, bars: &[(f64, f64)]) -> Axis {
         let largest = |quantity: &dyn Fn(&(f64, f64)) -> f64| bars.iter().map(quantity).fold(0.0, f64::max);
         let (below, above) = (largest(&|(_, change)| -change), largest(&|(_, change)| *change));

@@ -9,7 +9,7 @@ pub type Colour = [f32; 3];
 /// Number of samples per pixel in each direction; the mean of the samples gives smooth edges.
 const SAMPLES_PER_PIXEL: usize = 2;
 
-/// An image with a depth buffer. Its coordinates are the coordinates that a [`View`] of the same size returns.
+/// An image with a depth buffer. Positions in the image are in the pixels of a [`View`] of the same size.
 #[derive(Debug, Clone)]
 pub struct Canvas {
     columns: usize,
@@ -27,8 +27,8 @@ impl Canvas {
         Self { columns, rows, colour: vec![ground; columns * rows], depth: vec![f64::INFINITY; columns * rows] }
     }
 
-    /// Calls `visit` with the index and the depth [m] of every sample in a triangle. A corner is: distance from the
-    /// left edge [px], distance from the upper edge [px], depth [m].
+    /// Calls `visit` with the index and the depth [m] of every sample in a triangle. Each corner consists of distance
+    /// from the left edge [px], distance from the upper edge [px] and depth [m].
     pub fn visit(&self, corners: [[f64; 3]; 3], mut visit: impl FnMut(usize, f64)) {
         let [a, b, c] = corners
             .map(|[x, y, depth]| [x * SAMPLES_PER_PIXEL as f64 - 0.5, y * SAMPLES_PER_PIXEL as f64 - 0.5, depth]);
@@ -64,8 +64,8 @@ impl Canvas {
         (self.colour, self.depth) = (colours, depths);
     }
 
-    /// Draws a line of a width [px] with the opacity `strength`, except where the image shows something that is nearer
-    /// to the viewer by more than `hidden` [m].
+    /// Draws a line that is `width` px wide, with the opacity `strength` (0 to 1). Nothing is drawn where the image
+    /// shows something that is nearer to the viewer by more than `hidden` [m].
     pub fn line(&mut self, [a, b]: [[f64; 3]; 2], width: f64, colour: Colour, strength: f32, hidden: f64) {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         let length = dx.hypot(dy);
@@ -130,7 +130,7 @@ mod tests {
         canvas.fill(triangle(3.0), [0.0, 0.0, 1.0]);
         assert_eq!(canvas.colour[0], [0.0, 1.0, 0.0]);
         assert_eq!(canvas.colour[399], [1.0; 3]);
-        // The triangle covers half of the samples, and some of the samples on its edge.
+        // The triangle covers half of the 400 samples. Some of the samples on its edge count, too.
         let mut inside = 0;
         canvas.visit(triangle(0.0), |_, _| inside += 1);
         assert!((190..=210).contains(&inside), "{inside}");

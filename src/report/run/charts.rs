@@ -141,8 +141,8 @@ pub fn gauges(run: &RunFolder) -> Vec<String> {
     charts
 }
 
-/// Time range in which the flume model is shown [s]: the time range of the particles, extended by half its length on
-/// both sides. If the gauge is outside the particle domain: all times before the end of the run.
+/// Time range in which a gauge chart shows the flume model [s]: the time range of the particles, extended by half its
+/// length on both sides. If the gauge is outside the particle domain: all times before the end of the run.
 fn shown_time(particles: Option<&Table>, at_gauge: bool) -> [f64; 2] {
     let times = particles.and_then(|table| table.get("time_s")).unwrap_or_default();
     let (Some(start), Some(end)) = (times.first(), times.last()) else { return [f64::MIN, f64::MAX] };

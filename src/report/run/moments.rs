@@ -13,8 +13,8 @@ use crate::output::{OutputError, WaterSnapshots};
 const BESIDE_MOUND_M: f64 = 0.5;
 /// A corner of the bed profile belongs to the mound if its distance from the units is less than this value [m].
 const MOUND_REACH_M: f64 = 1.5;
-/// If the snapshot at the peak speed of the units is already chosen, the moment this long after the peak force is shown
-/// instead [s].
+/// Time from the peak of the water force to an additional moment [s]. The report shows this moment if the snapshot at
+/// the peak speed of the units is already chosen.
 const LATER_S: f64 = 0.5;
 /// Share of the water particles that are below the upper edge of the window [-]; the particles above it are spray.
 const UNDER_EDGE: f64 = 0.999;
@@ -169,7 +169,8 @@ struct Choice {
     pictured: bool,
 }
 
-/// Chooses the moments, in chronological order. Without units, four equally spaced moments are chosen.
+/// Chooses the moments, in chronological order. Without units or without a water force, four equally spaced moments are
+/// chosen.
 fn choices(run: &RunFolder, water: &WaterSnapshots) -> Vec<Choice> {
     let Some(last) = water.times_s().len().checked_sub(1) else { return Vec::new() };
     let mut choices = vec![Choice { step: 0, words: "Start of the particle simulation".to_owned(), pictured: false }];
@@ -198,7 +199,7 @@ fn choices(run: &RunFolder, water: &WaterSnapshots) -> Vec<Choice> {
             add(water.nearest(fastest_s).unwrap_or(0), words, false)
         });
         if !fastest {
-            let words = format!("{} s after the peak of the mean horizontal force", short(LATER_S, 1));
+            let words = format!("{} s after the peak of the mean horizontal force of the water", short(LATER_S, 1));
             add(water.nearest(force_s + LATER_S).unwrap_or(0), words, false);
         }
     } else {

@@ -29,7 +29,7 @@ impl<'a> ImpactScene<'a> {
         Self { run, window, eye, surface }
     }
 
-    /// Draws a white background. The colours of the water need this background on dark pages, too.
+    /// Draws a white background. On a dark page, the colours of the water would be hard to read without it.
     pub fn sky(&self) -> String {
         let [left, top, right, bottom] = self.window.edges();
         format!("<path class=\"sky\" d=\"M{left:.1} {top:.1}H{right:.1}V{bottom:.1}H{left:.1}Z\"/>\n")

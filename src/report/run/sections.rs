@@ -157,9 +157,9 @@ fn water(run: &RunFolder) -> String {
     }
     let mut content = String::from("<p>The surface elevation \u{3b7} is relative to the still water level.");
     if run.flume_gauges.is_some() {
-        content += " The flume model computes the wave along the whole flume, without units and without wave breaking. \
-                    If the elevations of flume model and particles agree until the wave reaches the units, the wave \
-                    has entered the particle domain correctly.";
+        content += " The flume model computes the wave along the whole flume, without units; breaking waves are \
+                    simplified to bores. If the elevations of flume model and particles agree until the wave reaches \
+                    the units, the wave has entered the particle domain correctly.";
     }
     content += "</p>\n";
     content += &gauge_table(&run.summary);
@@ -191,7 +191,7 @@ fn gauge_table(summary: &Summary) -> String {
         .collect();
     format!(
         "<div class=\"scroll\"><table>\n<thead><tr><th>Gauge</th><th>x [m]</th><th>Crest, particles [cm]</th>\
-         <th>Crest, flume model [cm]</th><th>Difference [%]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+         <th>Crest, flume model [cm]</th><th>Particles minus flume model [%]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
 }
 
@@ -202,8 +202,8 @@ fn forces(run: &RunFolder) -> String {
     }
     let contacts = &run.summary.contacts;
     let content = format!(
-        "<p>Force of the water minus the force of still water (mean over the first 0.2 s). If there are many units, a \
-         band shows the mean \u{b1} one standard deviation.</p>\n\
+        "<p>Force of the water minus the force of still water (mean over the first 0.2 s). With more than six units, a \
+         band shows the mean \u{b1} one standard deviation over the units.</p>\n\
          <div class=\"pair\">\n<figure><figcaption>Horizontal force, positive shoreward</figcaption>{along}</figure>\n\
          <figure><figcaption>Vertical force, positive upwards</figcaption>{up}</figure>\n</div>\n\
          <figure>{contact}<figcaption>Resultant contact force from bed and neighbouring units. Contact events: {} with \
@@ -296,7 +296,7 @@ fn facts(summary: &Summary) -> String {
         (
             "Computing time",
             format!(
-                "{} with {} threads, water on the {}, {} time steps per second",
+                "{} with {} threads, water computed on the {}, {} time steps per second",
                 clock(execution.wall_s),
                 execution.threads,
                 execution.device.as_deref().unwrap_or("processor"),

@@ -20,12 +20,12 @@ pub fn views(run: &RunFolder) -> String {
     for (moment, title) in [(0, "Side view before the wave"), (1, "Side view after the wave")] {
         let drawing = side_view(run, x, &ends, moment, title);
         let time = short(times[moment], 2);
-        html += &format!("<figure>{drawing}<figcaption>{title}, at {time} s.</figcaption></figure>\n");
+        html += &format!("<figure>{drawing}<figcaption>{title}, at flume time {time} s.</figcaption></figure>\n");
     }
     let sides = if run.summary.side_walls { "with side walls" } else { "periodic across the flume" };
     html += &format!(
         "<figure>{}<figcaption>Top view, {sides}. Outlines: initial positions. Solid: final positions. Arrows: \
-         displacements. Thin lines: toes and crest edges of the mound.</figcaption></figure>\n",
+         displacements. Thin lines: corners of the bed profile, such as toes and crest edges of the mound.</figcaption></figure>\n",
         top_view(run, x, &ends)
     );
     html

@@ -10,8 +10,8 @@ use crate::output::WaterSnapshot;
 /// high speed.
 const COLOURS: [&str; 10] =
     ["#c4e0e6", "#9ecbe2", "#80b3e3", "#7498e4", "#767bdb", "#795dc4", "#7642a5", "#6d2b7f", "#5c1956", "#421130"];
-/// Half the thickness of the slab [particle spacings]. The slab contains one layer of particles at rest, and not too
-/// many particles after mixing.
+/// Half the thickness of the slab [particle spacings]. In still water, the slab contains one layer of particles; in
+/// mixed water, it contains only a few more.
 const HALF_SLAB: f64 = 0.75;
 /// Diameter of a dot [particle spacings].
 const DOT: f64 = 0.95;
@@ -170,7 +170,7 @@ mod tests {
         let scale = SpeedScale::holding([&dots[..4]]);
         assert_eq!(scale.top, 1.0);
         let svg = scale.drawing(&dots, &window, 0.02);
-        // The scale is 848 px per metre, so that 0.02 m are 17 px.
+        // The scale is 848 px per metre, so the distance of 0.02 m is 17 px.
         assert!(svg.contains(&format!("stroke=\"{}\" d=\"m4820 928h0m170 0h0m169 0h0\"", COLOURS[0])), "{svg}");
         assert!(svg.contains(COLOURS[9]) && svg.matches("h0").count() == 4);
         // Of two particles closer than two pixels, only one is drawn.

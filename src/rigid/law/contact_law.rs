@@ -6,20 +6,20 @@
 //! | linear | [`super::linear`], measured stiffness | spring with history |
 //! | `chrono4` | Hertz with R = 0.1 m for every contact | spring of one substep, without history; 0 below 0.1 mm/s |
 //!
-//! |F_t| <= mu F_n; both forces are zero where F_n < 0. mu changes from mu_s at rest to mu_k during sliding:
-//! mu = mu_k + (mu_s - mu_k) exp(-(v_t / v_c)^2). Rolling resistance is a spring with a limit (Ai et al. 2011):
-//! |M| <= mu_r R F_n.
+//! The tangential force is limited to |F_t| <= mu F_n. If F_n would be negative, both forces are zero. mu changes from
+//! mu_s at rest to mu_k during sliding: mu = mu_k + (mu_s - mu_k) exp(-(v_t / v_c)^2). Rolling resistance is a spring
+//! with the limit |M| <= mu_r R F_n (Ai et al. 2011).
 //!
 //! `chrono4` reproduces Mitsui et al. (2023). Chrono 4.0 uses one radius for all contacts between meshes and does not
-//! store the tangential spring, so units creep at any load.
+//! store the tangential spring, so units creep under any load.
 
 use glam::DVec3;
 
 use super::parameters::{ContactModel, Material, Resistance};
 use super::{hertz_mindlin, linear};
 
-/// Sliding speed v_c of the transition from static to kinetic friction [m/s]. It is five times the fluctuation of a
-/// unit at rest in water (0.2 mm/s), and far below the speeds of moving units.
+/// Sliding speed v_c of the transition from static to kinetic friction [m/s]. It is five times the speed with which
+/// a unit at rest in water fluctuates (0.2 mm/s), and far below the speeds of moving units.
 const TRANSITION_SPEED: f64 = 1e-3;
 /// Radius of every contact under `chrono4` [m].
 const CHRONO_RADIUS: f64 = 0.1;
@@ -57,7 +57,7 @@ pub struct ContactForces {
     pub normal: f64,
     /// Tangential force on the first body [N].
     pub tangential: DVec3,
-    /// Displacement of the tangential spring, reduced to the friction limit [m].
+    /// Elongation of the tangential spring, reduced to the friction limit [m].
     pub spring: DVec3,
     /// True if the tangential force reached the friction limit, or if the normal force is zero.
     pub sliding: bool,
@@ -167,7 +167,7 @@ impl ContactLaw {
         kinetic_friction + (static_friction - kinetic_friction) * (-(speed / TRANSITION_SPEED).powi(2)).exp()
     }
 
-    /// Computes the forces for an overlap d > 0 [m] and the displacement of the tangential spring [m]. v_n (positive
+    /// Computes the forces for an overlap d > 0 [m] and the elongation of the tangential spring [m]. v_n (positive
     /// when separating) and v_t are velocities of the first body relative to the second [m/s].
     pub fn forces(&self, overlap: f64, v_n: f64, v_t: DVec3, spring: DVec3) -> ContactForces {
         let s_n = self.normal_stiffness(overlap);
@@ -192,8 +192,9 @@ impl ContactLaw {
         ContactForces { normal, tangential: -trial * held, spring: spring * held, sliding: true }
     }
 
-    /// Computes the rolling resistance for the normal force F_n [N]: k_r = R^2 S_t, c_r = R^2 g_t. `omega` [rad/s] and
-    /// `spring` [rad] are perpendicular to the contact normal. `None` if the rolling coefficient is zero.
+    /// Computes the rolling resistance for the normal force F_n [N], with the stiffness k_r = R^2 S_t and the damping
+    /// coefficient c_r = R^2 g_t. `omega` [rad/s] and `spring` [rad] are perpendicular to the contact normal. `None` if
+    /// the rolling coefficient is zero.
     pub fn rolling_resistance(&self, overlap: f64, normal: f64, omega: DVec3, spring: DVec3) -> Option<Rolling> {
         if self.resistance.rolling == 0.0 {
             return None;
@@ -221,7 +222,7 @@ mod tests {
 
     use super::*;
 
-    /// Ball on a fixed plane, R 20 mm, E 1 GPa, nu 0.25, rho 2650 kg/m3.
+    /// Contact law of a ball on a fixed plane: R = 20 mm, E = 1 GPa, nu = 0.25, density 2650 kg/m3.
     fn law(model: ContactModel, e: f64) -> ContactLaw {
         let material = Material { young_modulus: 1e9, poisson_ratio: 0.25, restitution: e };
         let resistance = Resistance { rolling: 0.1, stiffness: Some(1e6), ..0.5.into() };
@@ -238,7 +239,7 @@ mod tests {
         let d = 261.3e-6;
         assert!((law.elastic_force(d) / (k * d.powf(1.5)) - 1.0).abs() < 1e-12);
         assert!((law.normal_energy(d) / (0.4 * k * d.powf(2.5)) - 1.0).abs() < 1e-12);
-        // The reference value has four digits.
+        // The reference value, 424.8 N, has four digits.
         assert!((law.elastic_force(law.impact_overlap(1.0)) / 424.8 - 1.0).abs() < 1e-3);
     }
 

@@ -1,12 +1,12 @@
 //! Stiffness and damping of the Hertz-Mindlin law (Sunday et al. 2020; Mitsui et al. 2023, equations 10 and 11).
 //!
-//! F_n = (2/3) S_n d - g_n v_n and F_t = S_t d_t + g_t v_t, with overlap d [m], normal velocity v_n [m/s] (positive
-//! when the bodies separate), tangential spring d_t [m] and tangential velocity v_t [m/s]. [`super::contact_law`]
-//! limits both forces.
+//! F_n = (2/3) S_n d - g_n v_n and F_t = -(S_t d_t + g_t v_t), with overlap d [m], normal velocity v_n [m/s] (positive
+//! when the bodies separate), elongation d_t of the tangential spring [m] and tangential velocity v_t [m/s].
+//! [`super::contact_law`] limits both forces.
 //!
-//! Damping factor: beta = ln e / sqrt(ln^2 e + pi^2) gives the restitution e if the normal force may become tensile at
-//! the end of the contact. Here a tensile force is set to zero, and this formula would give a restitution of 0.55 for
-//! e = 0.5. [`damping_factor`] therefore computes beta from the law without tension.
+//! Damping factor: |beta| = -ln e / sqrt(ln^2 e + pi^2) gives the restitution e if the law allows a tensile normal
+//! force at the end of the contact. Here a tensile force is set to zero, and this formula would give a restitution of
+//! 0.55 for e = 0.5. [`damping_factor`] therefore computes |beta| from the law without tension.
 
 use std::f64::consts::PI;
 
@@ -44,7 +44,7 @@ pub fn impact_overlap(e_star: f64, radius: f64, mass: f64, speed: f64) -> f64 {
     (15.0 * mass * speed * speed / (16.0 * e_star * radius.sqrt())).powf(0.4)
 }
 
-/// Damping factor |beta| of Sunday et al., if the force may be tensile: -ln e / sqrt(ln^2 e + pi^2) [-].
+/// Damping factor |beta| of Sunday et al. (2020) for a law with tensile force: -ln e / sqrt(ln^2 e + pi^2) [-].
 pub fn damping_factor_with_tension(e: f64) -> f64 {
     -e.ln() / (e.ln().powi(2) + PI * PI).sqrt()
 }
@@ -59,7 +59,7 @@ pub(super) fn damping_factor_of(e: f64, acceleration: impl Fn(f64, f64, f64) -> 
     if e >= 1.0 {
         return 0.0;
     }
-    // With beta = 4, less than 2 % of the speed is left. Smaller restitutions also get beta = 4.
+    // With beta = 4, the restitution is less than 0.02. If `e` is smaller still, beta is also 4.
     let (mut low, mut high) = (0.0, 4.0);
     // 40 bisections resolve beta to 4e-12.
     for _ in 0..40 {
@@ -73,7 +73,8 @@ pub(super) fn damping_factor_of(e: f64, acceleration: impl Fn(f64, f64, f64) -> 
 /// the law does not depend on mass, stiffness or speed.
 fn tensionless_restitution(acceleration: impl Fn(f64, f64) -> f64) -> f64 {
     let acceleration = |x: f64, v: f64| acceleration(x.max(0.0), v);
-    // A contact lasts about 3.2 in dimensionless time. With this step, the error is far below the required 1e-4.
+    // A contact lasts about 3.2 in dimensionless time. With this time step, the error of the restitution is far below
+    // the required 1e-4.
     let h = 2e-3;
     let (mut x, mut v) = (0.0, 1.0);
     loop {
@@ -86,7 +87,7 @@ fn tensionless_restitution(acceleration: impl Fn(f64, f64) -> f64) -> f64 {
         if v < 0.0 && (x <= 0.0 || acceleration(x, v) >= 0.0) {
             return -v;
         }
-        // Overdamped: the body returns with almost no speed.
+        // The contact is overdamped: the body returns with almost no speed.
         if v.abs() < 1e-4 && acceleration(x, v).abs() < 1e-4 {
             return 0.0;
         }
@@ -101,7 +102,7 @@ mod tests {
     fn closed_form_damping_overestimates_tensionless_restitution() {
         let rebound = |beta: f64| tensionless_restitution(|x, v| -x.powf(1.5) - 5f64.sqrt() * beta * x.powf(0.25) * v);
         for e in [0.1, 0.3, 0.5, 0.8, 0.95] {
-            // 1e-4 is a tenth of the tolerance of the impact tests.
+            // Limit 1e-4: a tenth of the tolerance of the impact tests.
             assert!((rebound(damping_factor(e)) - e).abs() < 1e-4);
             assert!(rebound(damping_factor_with_tension(e)) > e);
             assert!(damping_factor(e) > damping_factor_with_tension(e));

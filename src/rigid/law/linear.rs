@@ -1,4 +1,5 @@
-//! Linear springs and dashpots for measured stiffnesses: F_n = k_n d - c_n v_n, F_t = k_t d_t + c_t v_t.
+//! Linear springs and dashpots for measured stiffnesses: F_n = k_n d - c_n v_n,
+//! F_t = -(k_t d_t + c_t v_t), with the symbols of [`super::hertz_mindlin`].
 //!
 //! k_t / k_n = 2 (1 - nu)/(2 - nu), Mindlin's (1949) ratio of tangential to normal stiffness.
 
@@ -25,12 +26,12 @@ mod tests {
 
     #[test]
     fn damping_matches_the_closed_form_of_schwager_and_poschel() {
-        // Closed form without tension for an underdamped impact (Schwager & Poschel 2007), b < 1/sqrt 2:
+        // Closed form without tension for an impact with the damping factor b < 1/sqrt 2 (Schwager & Poschel 2007):
         // e = exp(-b/sqrt(1 - b^2) (pi - atan2(2 b sqrt(1 - b^2), 1 - 2 b^2))).
         for b in [0.05f64, 0.2, 0.5, 0.7] {
             let root = (1.0 - b * b).sqrt();
             let e = (-b / root * (std::f64::consts::PI - (2.0 * b * root).atan2(1.0 - 2.0 * b * b))).exp();
-            // 1e-4: as in the Hertz restitution test.
+            // Limit 1e-4, as in the test of the Hertz-Mindlin law.
             assert!((damping_factor(e) - b).abs() < 1e-4, "{b} {e} {}", damping_factor(e));
         }
         assert_eq!(damping_factor(1.0), 0.0);

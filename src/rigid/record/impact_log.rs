@@ -1,4 +1,5 @@
-//! The impacts of each unit with the largest peak force and approach energy; the breakage analysis may re-run them.
+//! The impacts with the largest peak forces and approach energies of each unit. The breakage analysis selects from
+//! these impacts.
 //!
 //! An impact needs about 0.5 kB, and its force history at most 2.5 kB. A unit therefore needs at most 48 kB in any run.
 
@@ -116,7 +117,7 @@ impl ImpactLog {
         }
         let [force, _] = ranks(event);
         let lists = &mut self.units[unit];
-        // An impact that leaves the ranking by force may still enter the ranking by energy.
+        // An impact that leaves the ranking by force can still enter the ranking by energy.
         let weaker = rank_in(&mut lists.by_force, MAX_HARDEST, force)?;
         let [_, energy] = ranks(&self.impacts[&weaker.number].event);
         rank_in(&mut lists.by_energy, MAX_MOST_ENERGETIC, energy).map(|out| out.number)

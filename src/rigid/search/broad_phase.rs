@@ -27,7 +27,8 @@ pub fn pairs(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair
             (*x - DVec3::Y * (image * period.unwrap_or(0.0)), image as i32)
         })
         .collect();
-    // Half of the edge of each box is half of `near`; 1e-6 more, because rounding errors must not exclude a pair.
+    // Each box has edges of the length `near`, increased by the factor 1 + 1e-6, so that rounding errors do not exclude
+    // a pair.
     let half = DVec3::splat(0.5 * near * (1.0 + 1e-6));
     let boxes: Vec<Aabb> = wrapped.iter().map(|(x, _)| Aabb::new(*x - half, *x + half)).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);

@@ -97,7 +97,7 @@ impl GroundSurface {
             let distance = (core - strip.origin).dot(strip.normal);
             let foot = core.x - distance * strip.normal.x;
             let above = distance > 0.0 || core.z < self.profile.z(core.x);
-            // The tolerance prevents that a foot point falls between two strips; `keep` drops duplicates.
+            // Without the tolerance, a foot point could fall between two strips. `keep` drops duplicates.
             let inside = (strip.x[0] - SAME_POINT..strip.x[1] + SAME_POINT).contains(&foot);
             let feature = Feature::Ground { place: 2 * k as u32, end: end as u16 };
             (distance < reach && above && inside).then_some(Approach { feature, core, normal: strip.normal, distance })
@@ -115,7 +115,8 @@ const STRAIGHT: f64 = 1e-6;
 pub(super) fn keep(out: &mut Vec<Approach>, from: usize, new: Approach) {
     let foot = |a: &Approach| a.core - a.normal * a.distance;
     let same = |old: &&mut Approach| {
-        // Over 1e-6 m, two planes at an angle below STRAIGHT differ by less than a picometre.
+        // Foot points less than 1e-6 m apart count as the same. Over this distance, two planes at an angle below
+        // STRAIGHT differ by less than a picometre.
         foot(old).distance_squared(foot(&new)) < 1e-12 && old.normal.cross(new.normal).length() < STRAIGHT
     };
     match out[from..].iter_mut().find(same) {
@@ -233,7 +234,7 @@ mod tests {
         let surface = trapezoid();
         let (mut before, mut turned) = (0.1, 0.0);
         for i in 0..=4000 {
-            // The ball moves horizontally, 0.1 above the crest and beyond its landward edge.
+            // The ball moves horizontally, 0.1 m above the crest, and passes its shoreward edge.
             let at = DVec3::new(0.8 + 1e-4 * f64::from(i), 0.3, 1.1);
             let found = near(&surface, at);
             if found.is_empty() {
@@ -241,7 +242,8 @@ mod tests {
                 break;
             }
             assert_eq!(found.len(), 1, "{at}");
-            // Per step, the distance changes by less than the path, 1e-4, and the normal by 1e-4 / 0.1 rad.
+            // In each step the ball moves 1e-4 m. The distance changes by less than this path, the normal by
+            // 1e-4 / 0.1 rad.
             assert!((found[0].distance - before).abs() < 1.01e-4);
             let angle = found[0].normal.x.atan2(found[0].normal.z);
             assert!((angle - turned).abs() < 1.1e-3);
@@ -259,7 +261,7 @@ mod tests {
             let x = 1e-3 * f64::from(i);
             let found = near(&straight, DVec3::new(x, 0.0, 0.5 * x + 0.1));
             assert_eq!(found.len(), 1);
-            // cos(atan 0.5) x 0.1.
+            // The distance of the centre from the slope is 0.1 m times cos(atan 0.5).
             assert!((found[0].distance - 0.0894427191).abs() < 1e-9);
         }
     }

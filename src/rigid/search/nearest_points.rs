@@ -1,8 +1,8 @@
 //! Nearest points of the cores of two rounded parts.
 //!
-//! parry's GJK algorithm gives the distance of two convex cores with a relative error of about 5e-8. The error of the
-//! direction is larger: the square root of this value. A few alternating projections onto the cores, in closed form,
-//! make the direction exact. A contact at rest then has the same normal in every substep.
+//! The GJK algorithm of the library parry gives the distance of two convex cores with a relative error of about 5e-8.
+//! The error of the direction is larger: the square root of this value. A few alternating projections onto the cores,
+//! in closed form, make the direction exact. A contact at rest then has the same normal in every substep.
 
 use glam::{DQuat, DVec3};
 use parry3d_f64::math::Pose;
@@ -56,7 +56,7 @@ pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b)
 }
 
 /// Computes the nearest points by projections alone. `start` is the nearest point of the second core in the previous
-/// search, in the axes of the second body [m]. From this point, the projections mostly converge in a few iterations.
+/// search, in the axes of the second body [m]. From this point, the projections usually converge in a few iterations.
 /// Returns `None` if the projections do not converge, for example if two legs are nearly parallel.
 pub fn nearest_from(
     a: &ConvexPart,
@@ -87,7 +87,8 @@ fn refine_by_projections(a: &ConvexPart, on_b: impl Fn(DVec3) -> DVec3, mut p_b:
         if step.length_squared() < 1e-28 {
             return (true, [a.nearest(p_b), p_b]);
         }
-        // The steps finally shrink by a constant ratio. Every third step extrapolates to the limit of this series.
+        // After some iterations, the steps shrink by a constant ratio. Every third step extrapolates to the limit of
+        // this series.
         let ratio = step.dot(last) / last.length_squared().max(f64::MIN_POSITIVE);
         let extrapolates = k % 3 == 2 && ratio > 0.0 && ratio < MAX_RATIO;
         p_a = a.nearest(if extrapolates { p_b + step * (ratio / (1.0 - ratio)) } else { p_b });
@@ -107,8 +108,9 @@ fn to_world([p_a, p_b]: [DVec3; 2], (q_a, x_a): Placement, reach: f64) -> Neares
     Nearest::Points(q_a * p_a + x_a, q_a * p_b + x_a)
 }
 
-/// Largest number of alternating projections. Each projection reduces the error by a few tens of per cent (rounding
-/// radius over radius of the cores). 60 are needed only if two surfaces are parallel; any nearest point is then valid.
+/// Largest number of alternating projections. Each projection reduces the error by a few tens of per cent; the
+/// reduction depends on the ratio of the rounding radius to the radius of the cores. 60 projections are needed only if
+/// two surfaces are parallel; any nearest point is then valid.
 const MAX_PROJECTIONS: usize = 60;
 /// Largest ratio of two consecutive steps for which the limit is extrapolated [-].
 const MAX_RATIO: f64 = 0.95;
@@ -140,8 +142,8 @@ mod tests {
                 continue;
             };
             let n = (p_b - p_a).normalize();
-            // No point of a core lies beyond the plane through its nearest point. This proves that the points are
-            // nearest. 1e-9 of the height is a thousandth of the overlap at rest.
+            // No point of a core lies beyond the plane through its nearest point normal to n. This proves that the
+            // points are nearest. Limit 1e-9 of the unit height: a thousandth of the overlap at rest.
             assert!(a.support(n).dot(n) - p_a.dot(n) < 1e-9, "{i}");
             let on_b = turn * b.support(turn.inverse() * -n) + shift;
             assert!(p_b.dot(n) - on_b.dot(n) < 1e-9, "{i}");

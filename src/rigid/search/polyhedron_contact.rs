@@ -144,7 +144,8 @@ mod tests {
     #[test]
     fn aligned_boxes_touch_at_the_corners_of_the_contact_patch() {
         let points = above(0.3, 1.0, 0.0);
-        // Two corners of each box face the other box; the others are 0.3 away. Only edge crossings have a reduction.
+        // Two corners of each box face the other box; the other corners are 0.3 m away from it. Only edge crossings can
+        // have an overlap reduction.
         let bearing = points.iter().filter(|near| near.overlap_reduction == 0.0);
         assert_eq!(bearing.clone().count(), 4);
         for near in bearing {

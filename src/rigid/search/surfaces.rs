@@ -42,7 +42,8 @@ impl PartPair {
         ContactKey { body: first as u32, part, feature: Feature::Unit { body: second as u32, image, part: partner } }
     }
 
-    /// Returns true if the parts can be in contact. `travelled` is the largest motion [m] of the surface of each body.
+    /// Returns true if the parts can be in contact. `travelled` is the largest distance [m] that the surface of each
+    /// body has moved since the pair list was built, plus the margin of the body.
     pub fn can_be_near(&self, travelled: &[f64]) -> bool {
         self.gap <= travelled[self.bodies.first] + travelled[self.bodies.second]
     }
@@ -119,7 +120,7 @@ impl Surfaces {
             self.near_parts_of(pair, placements, margin, out);
             Ok(())
         });
-        // This search returns no errors.
+        // `near_parts_of` returns no errors, so the default is never used.
         near.unwrap_or_default()
     }
 
@@ -245,7 +246,7 @@ impl Surfaces {
             last_core.and_then(|core| nearest_points::nearest_from(part_a, pose_a, part_b, pose_b, core, reach));
         match near_last.unwrap_or_else(|| nearest_points::nearest(part_a, pose_a, part_b, pose_b, reach)) {
             Nearest::Apart => Ok(()),
-            // Two equal points: `unit_contact_point` rejects a distance of zero.
+            // Two equal points stand for overlapping cores; `unit_contact_point` returns an error for them.
             Nearest::Overlap => {
                 add(NearPoint { features: [WHOLE_PART; 2], points: [pose_a.1; 2], overlap_reduction: 0.0 })
             }

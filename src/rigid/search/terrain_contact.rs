@@ -3,7 +3,7 @@
 //! An end of a part touches a triangle if the foot point of the end lies in the triangle. The part touches a ridge or a
 //! corner if no neighbouring element is nearer; the directions from ridge or corner into its neighbours decide this.
 //! In a flat valley, an end in front of two triangles touches only the nearer triangle. The contact energy is then the
-//! larger one of the two triangles. It is continuous, however fine the triangles are.
+//! larger of the energies of both triangles. It is continuous, however fine the triangles are.
 
 use glam::{DQuat, DVec3};
 
@@ -12,15 +12,16 @@ use crate::geometry::convex::convex_part::ConvexPart;
 use crate::geometry::terrain::{Corner, Face, Ridge, SurfaceElement, Terrain};
 use crate::rigid::contact::Feature;
 
-/// Distance by which a foot point may lie outside a triangle [m]. Without it, rounding errors could place a foot point
-/// between two triangles. [`keep_nearer`] drops duplicates.
+/// Largest distance outside a triangle at which a foot point still counts as inside [m]. Without it, rounding errors
+/// could place a foot point between two triangles. [`keep_nearer`] drops duplicates.
 const SAME_PLACE: f64 = 1e-12;
 
-/// Fraction of the rounding radius by which a core may lie behind a triangle that it touches [-]. In a substep, a unit
-/// moves much less. A core further behind touches another side of a thin body.
+/// Largest distance of a core behind a triangle that it touches, divided by the rounding radius [-]. In a substep, a
+/// unit moves much less. If a core lies further behind, the triangle is on the opposite side of a thin body.
 const LARGEST_DEPTH_BEHIND: f64 = 0.25;
 
-/// Cosine of the angle between two triangles above which an end touches only the nearer triangle [-] (below 0.2 rad).
+/// If the cosine of the angle between two triangles is above this value [-] (angle below 0.2 rad), an end touches only
+/// the nearer triangle.
 /// In a steeper valley, the second contact starts at least 0.02 of the rounding radius later than the first. If it
 /// starts with an overlap, this initial overlap is subtracted.
 const VALLEY: f64 = 0.98;
@@ -195,7 +196,7 @@ mod tests {
             }
             let found = near(&terrain, &leg, rotation, at);
             let deepest = |all: &[Approach]| all.iter().map(|a| a.distance).fold(f64::MAX, f64::min);
-            // Resolution of the bisection along an edge of two metres.
+            // Limit 1e-9 m: far above the resolution of the bisection along an edge of two metres.
             assert!((deepest(&found) - deepest(&expected)).abs() < 1e-9, "{at}: {found:?} {expected:?}");
             compared += 1;
         }
@@ -208,12 +209,13 @@ mod tests {
         let bowl = extruded_profile(&arc);
         let mut before = 0.25;
         for i in 0..2000 {
-            // The ball moves at a distance of 0.25 from the surface of the trough.
+            // The centre of the ball moves at a distance of 0.25 m from the surface of the trough.
             let angle = -0.9 + 9e-4 * f64::from(i);
             let at = DVec3::new(0.75 * angle.sin(), 0.1, 1.0 - 0.75 * angle.cos());
             let found = near(&bowl, &ball(), DQuat::IDENTITY, at);
             assert_eq!(found.len(), 1, "{at}: {found:?}");
-            // 4e-4: sagitta of a 0.05 rad arc. 2e-5: a step moves 6.75e-4 m, at most 0.025 rad off the triangle.
+            // Limit 4e-4 m: the sagitta of an arc of 0.05 rad and radius 1 m is 3e-4 m. Limit 2e-5 m: in each step the
+            // ball moves 6.75e-4 m, at an angle of at most 0.025 rad to the triangle.
             assert!((found[0].distance - 0.25).abs() < 4e-4);
             assert!(i == 0 || (found[0].distance - before).abs() < 2e-5);
             before = found[0].distance;

@@ -1,17 +1,19 @@
-//! Lowers a unit until it touches something.
+//! Lowers a unit until it touches the ground or another unit.
 
 use glam::{DQuat, DVec3};
 
 use crate::rigid::{BodyState, RigidWorld};
 
-/// Step by which a unit is lowered, over the height of the unit [-]. The step is smaller than the thinnest part of a
-/// unit, so a unit cannot pass through another unit.
+/// Step by which a unit is lowered, divided by the height of the unit [-]. The step is smaller than the thinnest part
+/// of a unit, so a unit cannot pass through another unit.
 const STEP: f64 = 0.05;
-/// Number of bisections of the last step. The error is then 0.05 H / 2^12, a hundred-thousandth of the height H.
+/// Number of bisections of the last step. The error of the level is then 0.05 H / 2^12 = 1.2e-5 H, with the height H of
+/// the unit.
 const BISECTIONS: u32 = 12;
 
-/// Lowers a unit from `from` [m] until it touches something, and returns its state there, at rest. Returns `None` if
-/// the unit overlaps something at `from`, or touches nothing down to one unit height below the level `ground` [m].
+/// Lowers a unit from `from` [m] until it touches the ground or another unit, and returns its state there, at rest.
+/// Returns `None` if the unit already overlaps a body at `from`, or if it touches nothing down to one unit height below
+/// the level `ground` [m].
 pub(super) fn lowered(world: &RigidWorld, from: DVec3, rotation: DQuat, ground: f64, height: f64) -> Option<BodyState> {
     let is_free = |z: f64| world.overlap_at(DVec3::new(from.x, from.y, z), rotation) == 0.0;
     if !is_free(from.z) {

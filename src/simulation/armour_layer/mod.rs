@@ -1,8 +1,8 @@
 //! Placement of armour layers: units are lowered onto a slope one by one until they touch, then released to settle.
 //!
 //! Like a crane, the program places the units layer by layer, and row by row from the toe upwards. The number of units
-//! follows from the packing density phi: N = phi A / D_n^2 on the area A of the slope. The units are lowered at the
-//! nodes of a staggered grid; contact forces determine where they come to rest.
+//! is N = phi A / D_n^2, with packing density phi, area A of the slope, and nominal diameter D_n of a unit. The units
+//! are lowered at the nodes of a staggered grid; contact forces determine where they come to rest.
 
 mod lower;
 mod slots;
@@ -22,11 +22,11 @@ use slots::{Slot, rows};
 const CHECK_INTERVAL: f64 = 1e-3;
 /// Shortest and longest settling time of a row [s].
 const ROW_TIME: [f64; 2] = [0.05, 1.0];
-/// The next row is placed when all units are slower than this speed, over sqrt(g H) [-].
+/// The next row is placed when all units are slower than this: speed divided by sqrt(g H), with the unit height H [-].
 const ROW_SPEED: f64 = 0.15;
 /// Longest settling time after the last row [s].
 const LAST_TIME: f64 = 10.0;
-/// Units slower than this speed, over sqrt(g H), are at rest [-].
+/// Units slower than this are at rest: speed divided by sqrt(g H), with the unit height H [-].
 const REST_SPEED: f64 = 1e-4;
 
 /// Reason why an armour layer cannot be placed.
@@ -53,15 +53,15 @@ pub enum PlacementError {
 /// An armour layer that has settled.
 #[derive(Debug, Clone)]
 pub struct ArmourLayer {
-    /// The units at rest.
+    /// Poses and velocities of the units at the end.
     pub units: Vec<BodyState>,
-    /// Number of units whose centre came to rest outside the ends of the layers.
+    /// Number of units whose centre is at the end seaward or shoreward of the slope that the layers cover.
     pub rolled_off: usize,
-    /// Packing density of the units that stayed on the slope: their number over A / D_n^2 [-].
+    /// Packing density of the units that stayed on the slope: their number divided by A / D_n^2 [-].
     pub packing_density: f64,
-    /// Deepest overlap of a contact at the end, over the height of a unit [-].
+    /// Deepest overlap of a contact at the end, divided by the height of a unit [-].
     pub deepest_overlap: f64,
-    /// Kinetic energy at the end, over the potential energy lost since the units were released [-].
+    /// Kinetic energy at the end, divided by the potential energy that the units lost since their release [-].
     pub unrest: f64,
     /// Speed of the fastest unit at the end [m/s].
     pub fastest: f64,
@@ -148,7 +148,7 @@ fn fastest(world: &RigidWorld, height: f64) -> f64 {
     world.states().iter().map(speed).fold(0.0, f64::max)
 }
 
-/// Returns the level of the highest unit centre, or of the ground at x if that is higher [m].
+/// Returns the level of the highest unit centre, or the level of the ground at `x` if the ground is higher [m].
 fn highest(world: &RigidWorld, site: &Site, x: f64) -> f64 {
     world.states().iter().map(|state| state.position.z).fold(site.highest_at(x), f64::max)
 }

@@ -17,7 +17,8 @@ pub(super) struct Slot {
     pub rotation: DQuat,
 }
 
-/// Smallest distance of the centre of a unit from a side wall, over the height of the unit [-]: the reach of a leg.
+/// Smallest distance of the centre of a unit from a side wall, divided by the height of the unit [-]. This is the reach
+/// of a leg.
 const FROM_WALL: f64 = 0.68;
 
 /// Returns the rows of all layers in the order of placement: layer by layer, and in each layer from the toe upwards.
@@ -32,7 +33,7 @@ pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
     let length = length_of(&slope);
     let mut rows = Vec::new();
     for layer in 0..layers {
-        // If the units do not divide evenly, the first layers get one unit more.
+        // If the number of units is not a multiple of the number of layers, the first layers get one more unit each.
         let count = all / layers + usize::from(layer < all % layers);
         let pitch = (length * width / count.max(1) as f64).sqrt();
         let across = ((width / pitch).round() as usize).max(1);
@@ -40,7 +41,7 @@ pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
         let mut of_layer: Vec<Vec<Slot>> = Vec::new();
         for row in 0..along {
             let in_row = across.min(count - row * across);
-            // Shift every second row and layer by half a pitch: the units then lie over the gaps of the row below.
+            // Shift every second row by half a pitch; in the next layer, shift the other rows: units lie above gaps.
             let shift = if (row + layer).is_multiple_of(2) { 0.25 } else { 0.75 };
             let x = along_slope(&slope, (row as f64 + 0.5) / along as f64 * length);
             let slot = |column: usize| {
@@ -54,8 +55,8 @@ pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
             };
             of_layer.push((0..in_row).map(slot).collect());
         }
-        // If the slope falls towards the shore, its toe is at the last row: reverse the order, to place from the toe
-        // upwards.
+        // If the slope falls towards the shore, the last row is at the toe. Reverse the order, because placement starts
+        // at the toe.
         if slope[0][1] > slope[slope.len() - 1][1] {
             of_layer.reverse();
         }
@@ -87,7 +88,7 @@ mod tests {
 
     #[test]
     fn distances_are_measured_along_the_slope() {
-        // A horizontal part of 2 m, then a slope with sides 3, 4 and 5 m.
+        // A horizontal part of 2 m, then a slope that is 4 m wide, 3 m high and 5 m long.
         let slope = [[1.0, 0.0], [3.0, 0.0], [7.0, 3.0]];
         assert!((length_of(&slope) - 7.0).abs() < 1e-12);
         assert!((along_slope(&slope, 1.0) - 2.0).abs() < 1e-12);

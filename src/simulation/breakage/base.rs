@@ -10,33 +10,34 @@ pub const NAME: &str = "base";
 /// Name of the set of faces at the fixed underside of the block.
 pub const BOTTOM: &str = "base_bottom";
 
-/// Depth of the block over the width of the block [-].
+/// Depth of the block, divided by its width [-].
 const DEPTH: f64 = 0.5;
 
-/// Largest width of the block over the height of the unit [-], if legs reach below the contact plane.
+/// Largest width of the block, divided by the height of the unit [-], if legs reach below the contact plane.
 const WIDEST: f64 = 1.5;
 
-/// Smallest width of the block over the height of the unit [-]. If the legs leave less room, the block lies below all
-/// legs.
+/// Smallest width of the block, divided by the height of the unit [-]. If the legs leave less room, the block lies
+/// below all legs.
 const NARROWEST: f64 = 0.15;
 
-/// Nodes below this level above the contact plane belong to feet; level over the height of the unit [-].
+/// Nodes below this level belong to feet: level above the contact plane, divided by the height of the unit [-].
 const FOOT: f64 = 0.25;
 
-/// Width of the block on a plane bed, over the width that the feet need [-].
+/// Width of the block on a plane bed, divided by the width that the feet need [-].
 const MARGIN: f64 = 1.1;
 
-/// Depths below the touching foot, over the height of the unit [-]. On a bed that is not plane, the block avoids parts
-/// of the unit that are deeper than one of these depths. The first depth that leaves enough room is used.
+/// Depths below the touching foot, divided by the height of the unit [-]. On a bed that is not plane, the block avoids
+/// the parts of the unit below such a depth. The first depth that leaves room for the block is used.
 const LEVELS: [f64; 3] = [0.01, 0.02, 0.05];
 
-/// Initial gap between the bodies over the height of the unit [-].
+/// Initial gap between the bodies, divided by the height of the unit [-].
 pub const GAP: f64 = 1e-4;
 
-/// Depth of the sharp edges of the mesh below the contact point of the rounded unit, over the height of the unit [-].
+/// Largest depth of a mesh edge below the contact point, divided by the height of the unit [-]. The edges of the mesh
+/// are sharp, but the contact point was computed for rounded edges.
 pub const ROUNDED_OFF: f64 = 0.05;
 
-/// Nodes closer than this to the contact point count as touching; distance over the height of the unit [-].
+/// Nodes closer than this to the contact point count as touching: distance, divided by the height of the unit [-].
 pub const TOUCHING_DISTANCE: f64 = 0.12;
 
 /// Position and size of the block, relative to the contact point.
@@ -83,7 +84,7 @@ impl BlockPosition {
         let over = nodes.iter().filter(|node| flat(**node - middle).length() <= half_diagonal);
         let lowest = over.map(level).fold(f64::INFINITY, f64::min);
         let top = if lowest.is_finite() { lowest } else { 0.0 } - GAP * height;
-        // On a plane bed, another foot may be lower because its edges are sharp. That foot then touches first.
+        // On a plane bed, another foot can be lower because its edges are sharp. The lowest foot touches first.
         let gap = if is_plane { GAP * height } else { (foot - top).max(GAP * height) };
         Self { middle, width, top, gap }
     }
@@ -133,7 +134,7 @@ mod tests {
 
     #[test]
     fn on_a_plane_bed_the_block_lies_under_all_feet() {
-        // One foot touches; the edge of another one is slightly lower.
+        // One foot is at the contact point; another foot is slightly lower.
         let nodes = feet(&[[0.0, 0.0, 0.0], [0.8, 0.0, -0.03], [0.4, 0.7, 0.02], [0.4, 0.3, 1.0]]);
         let seat = BlockPosition::below(&nodes, |_| DVec3::ZERO, DVec3::new(0.4, 0.25, 0.4), DVec3::Z, 1.0);
         assert_eq!((seat.top, seat.gap), (-0.03 - GAP, GAP));
@@ -166,7 +167,7 @@ mod tests {
         let nodes = feet(&[[0.0, 0.0, 0.0], [-0.05, 0.0, -0.2], [0.1, 0.2, 1.0]]);
         let seat = BlockPosition::below(&nodes, |_| DVec3::ZERO, DVec3::new(0.0, 0.0, 0.4), DVec3::Z, 1.0);
         assert!((seat.top + 0.2 + GAP).abs() < 1e-12, "{seat:?}");
-        // The gap counts from the lowest node near the contact point, here the lower foot.
+        // The gap is measured from the foot at the contact point, 0.2 m above the lower foot.
         assert!(seat.gap >= GAP && seat.gap <= 0.2 + GAP);
     }
 }

@@ -37,7 +37,7 @@ pub struct UnitMotion {
     pub angular_velocity: DVec3,
 }
 
-/// Mass, momentum and energy of a unit at prototype scale: first value of the rigid body, second of the mesh nodes.
+/// Mass, momentum and energy of a unit at prototype scale. Each field has two values: rigid body, then mesh.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Balance {
     /// Mass [kg].
@@ -60,7 +60,8 @@ impl<'a> ScaledImpact<'a> {
         let prototype = effective_young_modulus(&unit, if on_unit { &unit } else { &base });
         let scale = match model.law {
             ContactLawName::HertzMindlin => froude.blow(recorded, prototype),
-            // These laws do not follow Hertz's law for the unit, so that only Froude's law remains.
+            // The recorded forces of these laws are not Hertz forces: `linear` has a constant stiffness, `chrono4` a
+            // fixed contact radius. Therefore scale them by Froude's law.
             ContactLawName::Linear | ContactLawName::Chrono4 => {
                 ImpactScale { force: froude.mass(), time: froude.velocity() }
             }
@@ -92,18 +93,18 @@ impl<'a> ScaledImpact<'a> {
         self.model.mass * self.froude.mass()
     }
 
-    /// Returns the density with which the tetrahedra have the mass of the unit [kg/m3].
+    /// Returns the density for which the mesh of the unit has the mass of the unit [kg/m3].
     pub fn density(&self) -> f64 {
         self.model.mass / self.settings.mesh.volume()
     }
 
-    /// Returns the angular velocity with which the nodes have the angular momentum of the rigid unit [rad/s].
+    /// Returns the angular velocity for which the mesh has the angular momentum of the rigid unit [rad/s].
     pub fn angular_velocity(&self, mover: &UnitMotion) -> DVec3 {
         self.settings.mesh.angular_velocity(self.model.gyration, mover.pose.rotation, mover.angular_velocity)
     }
 
-    /// Returns mass, momentum and energy of the rigid body and of the mesh nodes. Only the energies may differ
-    /// slightly.
+    /// Returns mass, momentum and kinetic energy of the rigid body and of the mesh. Mass and momentum are equal; the
+    /// kinetic energies can differ slightly.
     pub fn balance(&self, mover: &UnitMotion) -> Balance {
         let mass = self.mass();
         let in_body = mover.pose.rotation.inverse() * mover.angular_velocity;
@@ -127,17 +128,19 @@ impl<'a> ScaledImpact<'a> {
     }
 }
 
-/// Simulated time after first contact, over the duration of the impact on one foot [-]. An impact that three feet share
-/// is shorter.
+/// Simulated time after first contact, divided by the duration of an impact on one foot [-]. An impact on three feet is
+/// shorter.
 const DURATIONS_AFTER_CONTACT: f64 = 1.5;
 
-/// Smallest simulated time after first contact, over the travel time of an elastic wave along the unit [-].
+/// Smallest simulated time after first contact, divided by the time in which an elastic wave crosses the unit [-].
 const WAVE_TRAVELS_AFTER_CONTACT: f64 = 10.0;
 
-/// Lower limit of the approach speed in Hertz's law, over sqrt(g H) [-]. At zero speed, the duration would be infinite.
+/// Lower limit of the approach speed in Hertz's law, divided by sqrt(g H) with the height H of a unit [-]. At zero
+/// speed, the duration would be infinite.
 const MIN_APPROACH_SPEED: f64 = 1e-3;
 
-/// Duration of a Hertzian impact of elastic bodies, over (overlap / approach speed) [-] (Johnson 1985, section 11.4).
+/// Duration of an elastic impact by Hertz's law, divided by (largest overlap / approach speed) [-] (Johnson 1985,
+/// section 11.4).
 const HERTZ_DURATION_FACTOR: f64 = 2.943;
 
 fn hertz_duration(model: &Model, settings: &BreakageSettings, approach: f64, on_unit: bool, modulus: f64) -> f64 {
@@ -149,7 +152,7 @@ fn hertz_duration(model: &Model, settings: &BreakageSettings, approach: f64, on_
 }
 
 impl BreakageSettings {
-    /// Returns the elastic constants of the prototype's units and of the bed.
+    /// Returns the elastic constants of the units and of the bed in the prototype.
     fn materials(&self) -> [Material; 2] {
         let unit = &self.material;
         let unit = [unit.young_modulus_pa, unit.poisson_ratio];

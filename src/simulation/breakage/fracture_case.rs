@@ -13,13 +13,13 @@ use crate::femdem::mesh::unit_mesh::UnitMesh;
 use crate::femdem::mesh::{Mesh, msh};
 use crate::output::{OutputError, write_atomically};
 
-/// Name of the body for the other unit of an impact.
+/// Name of the second unit of an impact, if two units collide, as a body of the fracture case.
 pub const PARTNER: &str = "partner";
 
 /// Number of times at which the fracture run writes the surfaces of the bodies.
 const SURFACE_OUTPUTS: f64 = 20.0;
 
-/// Number of rows of the energy balance of the fracture run.
+/// Number of rows that the fracture run writes to `energy.csv`.
 const ENERGY_ROWS: f64 = 400.0;
 
 /// Bodies, loads and duration of an impact that is re-run; positions are relative to the contact point.
@@ -27,7 +27,7 @@ const ENERGY_ROWS: f64 = 400.0;
 pub struct ImpactScene {
     /// Mesh of all bodies.
     pub mesh: Mesh,
-    /// Motion of each body.
+    /// Name and initial motion of each body.
     pub parts: Vec<Part>,
     /// Loads on the bodies.
     pub loads: Vec<LoadFile>,
@@ -35,7 +35,7 @@ pub struct ImpactScene {
     pub duration: f64,
 }
 
-/// Motion of one body of a scene.
+/// Name and initial motion of one body of an [`ImpactScene`].
 #[derive(Debug, Clone)]
 pub struct Part {
     /// Name of the body in the mesh.
@@ -58,7 +58,7 @@ impl Part {
     }
 }
 
-/// Returns the fracture case of a scene; `mesh` is the name of the mesh file.
+/// Returns the fracture case of the impact `blow` with the bodies of `scene`; `mesh` is the name of the mesh file.
 pub fn file(blow: &ScaledImpact, scene: &ImpactScene, title: String, mesh: &str) -> FractureFile {
     let settings = blow.settings;
     let units = settings.material.clone();
@@ -137,17 +137,18 @@ pub fn file(blow: &ScaledImpact, scene: &ImpactScene, title: String, mesh: &str)
 
 fn assumptions(blow: &ScaledImpact) -> Vec<String> {
     let mut assumptions = vec![format!(
-        "Froude's law at the scale {}: lengths grow by the scale, velocities and times by its square root, masses by \
-         its cube; gravity and density are those of the model. If bodies collide, the contact forces follow from the \
-         prototype's concrete.",
+        "Froude's law at the scale {}: lengths are multiplied by the scale, velocities and times by its square root, \
+         masses by its cube; gravity and density are the same as in the model. If bodies collide, the contact forces \
+         follow from Young's modulus of the prototype concrete.",
         blow.froude.scale
     )];
     let [opening, _] = blow.settings.characteristic_lengths();
     let edge = blow.settings.mesh.edge() * blow.froude.length();
     if edge > 0.25 * opening {
         assumptions.push(format!(
-            "Elements of {edge:.2} m are larger than {:.3} m, a quarter of E G_f / f_t^2: the results show whether and \
-             where the unit cracks, but not the path of the cracks.",
+            "The mesh size of {edge:.2} m is larger than {:.3} m, a quarter of E G_f / f_t^2 (E: Young's modulus, G_f: \
+             fracture energy, f_t: tensile strength). The results show whether and where the unit cracks, but not the \
+             path of the cracks.",
             0.25 * opening
         ));
     }

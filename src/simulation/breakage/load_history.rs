@@ -13,13 +13,14 @@ use crate::femdem::mesh::unit_mesh::UnitMesh;
 use crate::output::{Impact, Impacts};
 use crate::rigid::ForceSample;
 
-/// Duration of the ramp between two force samples, over the duration of the shorter sample [-].
+/// Duration of the ramp between two force samples, divided by the duration of the shorter sample [-].
 const RAMP: f64 = 0.2;
 
-/// Smallest time between two rows of a load, over the duration of the fracture run [-].
+/// Smallest time between two rows of a load, divided by the duration of the fracture run [-].
 const MIN_ROW_DISTANCE: f64 = 1e-9;
 
-/// Returns mesh and loads of the unit alone. The loads are the forces recorded from the start of the impact.
+/// Returns mesh and loads of the unit alone. The loads are the forces that were recorded from the start of the impact
+/// onwards.
 pub fn scene(blow: &ScaledImpact, impacts: &Impacts) -> ImpactScene {
     let (mover, _) = blow.movers();
     let duration = blow.time_after();
@@ -58,9 +59,10 @@ pub fn scene(blow: &ScaledImpact, impacts: &Impacts) -> ImpactScene {
     ImpactScene { mesh, parts: vec![part(blow, UnitMesh::NAME, &mover)], loads, duration }
 }
 
-/// Returns the start of the contact `other` in the prototype [s], counted from the start of the impact, and the scale
-/// factors of this contact. Impacts scale by Hertz's law; so does the time between two contacts of one collision. A
-/// contact that began before this collision transmits other loads, and scales by Froude's law.
+/// Returns the start of the contact `other` in the prototype [s], counted from the start of the impact `blow`, and the
+/// scale factors of this contact. If both contacts belong to one collision, Hertz's law scales the time between them
+/// and the forces. Otherwise, Froude's law scales the time between them. Froude's law also scales the forces of `other`
+/// if this contact began earlier, because its impact is over.
 fn start_and_scale(blow: &ScaledImpact, other: &Impact) -> (f64, ImpactScale) {
     let since = other.event.start - blow.impact.event.start;
     let own = ScaledImpact::new(blow.model, blow.settings, other).scale;
@@ -72,9 +74,10 @@ fn start_and_scale(blow: &ScaledImpact, other: &Impact) -> (f64, ImpactScale) {
     }
 }
 
-/// Returns rows of time [s] and force [N] for the samples of a contact that begins at `since` [s]. Within a sample, the
-/// force is the mean force of the sample. Ramps around its ends do not change its impulse. Forces before time 0 and
-/// samples that begin after `until` [s] are omitted.
+/// Returns rows of time [s] and force [N] for the samples of a contact. The contact begins at the recorded time `start`
+/// [s], which is the time `since` [s] of the fracture run. Within a sample, the force is the mean force of the sample.
+/// Ramps connect the samples; they do not change the total impulse. Forces before time 0 and samples that begin after
+/// `until` [s] are omitted.
 fn rows(samples: &[ForceSample], start: f64, since: f64, scale: ImpactScale, sign: f64, until: f64) -> Vec<Vec<f64>> {
     let scaled = |sample: &ForceSample| {
         let from = since + (sample.start - start) * scale.time;
@@ -119,9 +122,9 @@ mod tests {
         let rows = rows(&samples, 5.0, 0.5, scale, -1.0, 100.0);
         assert!(rows.windows(2).all(|pair| pair[0][0] < pair[1][0]) && rows[0][3] == 0.0);
         let impulse: f64 = rows.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][3] + p[1][3])).sum();
-        // The factor 21 is the product of the scales of force and time; the sign is -1. Tolerance: rounding.
+        // The samples have the impulse 31 N s. The scale factors are 7 for force and 3 for time; the sign is -1.
         assert!((impulse / (-31.0 * 21.0) - 1.0).abs() < 1e-9, "{impulse}");
-        // If the contact began before time 0, 0.9 s of the 1.2 s of the second sample remain.
+        // If the contact began 0.6 s before time 0, 0.9 s of the 1.2 s of the second sample remain.
         let late = super::rows(&samples, 5.0, -0.6, scale, 1.0, 100.0);
         assert!(late[0][0] == 0.0 && late.windows(2).all(|pair| pair[0][0] < pair[1][0]), "{late:?}");
         let impulse: f64 = late.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][3] + p[1][3])).sum();

@@ -57,14 +57,14 @@ impl Model {
         }
     }
 
-    /// Returns true if an impact can belong to these units: the units exist, all values are finite, and the contact
-    /// point is near the units.
+    /// Returns true if an impact can belong to these units: the units exist, the checked values are finite, and the
+    /// contact point is less than two unit heights from the centre of each unit.
     pub fn is_plausible(&self, impact: &Impact) -> bool {
         let event = &impact.event;
         let mut states = [Some(event.before), event.partner_before].into_iter().flatten();
         let on_unit = |state: BodyState| {
             let moves = state.velocity.is_finite() && state.angular_velocity.is_finite();
-            // This comparison is false for NaN.
+            // This comparison is false if a position is NaN.
             let near = (DVec3::from_array(event.point) - state.position).length() < 2.0 * self.shape.height();
             moves && near && state.rotation.is_normalized()
         };
@@ -78,7 +78,7 @@ impl Model {
     }
 }
 
-/// Role of a unit in an impact.
+/// A unit of an impact, as the recorded unit or as its partner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Role {
     /// Index of the unit, from 0.
@@ -87,12 +87,12 @@ pub struct Role {
     pub place: DVec3,
     /// Rotation from world axes to body axes just before the impact.
     pub to_body: glam::DQuat,
-    /// Factor that gives the force on this unit from the recorded force: 1, or -1 for the partner.
+    /// Factor of the recorded force that gives the force on this unit: 1 for the recorded unit, -1 for its partner.
     pub sign: f64,
 }
 
 impl Role {
-    /// Returns the role of the recorded unit, and of its partner if the partner is a unit.
+    /// Returns one item for the recorded unit, and one for its partner if the partner is a unit.
     pub fn of(impact: &Impact) -> impl Iterator<Item = Self> {
         let event = &impact.event;
         let body = Self {

@@ -8,14 +8,14 @@ use super::fracture_case::{ImpactScene, PARTNER, Part};
 use crate::femdem::mesh::Mesh;
 use crate::femdem::mesh::unit_mesh::{UnitMesh, combine};
 
-/// Cell length of the block of the bed, over the mean edge length of the unit's mesh [-]. Each cell is cut into 24
-/// tetrahedra.
+/// Cell length of the block of the bed, divided by the mean edge length of the unit's mesh [-]. Each cell is cut into
+/// 24 tetrahedra.
 const BASE_CELL: f64 = 2.0;
 
-/// Longest simulated time before first contact, over the simulated time after first contact [-].
+/// Longest simulated time before first contact, divided by the simulated time after first contact [-].
 const LONGEST_WAIT: f64 = 3.0;
 
-/// Returns bodies and meshes of the collision; the origin is the contact point.
+/// Returns bodies and meshes of the collision; the origin is the contact point. The bodies start with a small gap.
 pub fn scene(blow: &ScaledImpact) -> ImpactScene {
     let height = blow.model.shape.height() * blow.froude.length();
     let normal = DVec3::from_array(blow.impact.event.normal).normalize_or(DVec3::Z);
@@ -31,7 +31,7 @@ pub fn scene(blow: &ScaledImpact) -> ImpactScene {
             };
             let lowest = levels_near_contact(&mesh).into_iter().fold(f64::INFINITY, f64::min);
             let highest = levels_near_contact(&other).into_iter().fold(f64::NEG_INFINITY, f64::max);
-            // If no nodes are near the contact point, the bodies keep their positions.
+            // If a body has no nodes near the contact point, the overlap is unknown: assume zero.
             let overlap = if (highest - lowest).is_finite() { highest - lowest } else { 0.0 };
             let most = ROUNDED_OFF * height;
             let back = (overlap + GAP * height).clamp(-most, most);
@@ -48,12 +48,12 @@ pub fn scene(blow: &ScaledImpact) -> ImpactScene {
         }
     };
     let approach = blow.impact.event.approach_normal.max(0.0) * blow.froude.velocity();
-    // Limit the time before contact for a body that approaches very slowly.
+    // The approach may be very slow: limit the time before contact.
     let before = if approach > 0.0 { (gap / approach).min(LONGEST_WAIT * blow.time_after()) } else { 0.0 };
     ImpactScene { mesh, parts, loads: Vec::new(), duration: before + blow.time_after() }
 }
 
-/// Returns the body called `name` for a unit with the motion `mover`.
+/// Returns the body called `name` for a unit that has the motion `mover` just before the impact.
 pub fn part(blow: &ScaledImpact, name: &'static str, mover: &UnitMotion) -> Part {
     Part {
         name,

@@ -27,7 +27,7 @@ pub struct Moved {
 /// Content of `breakage.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Breakage {
-    /// Length in the prototype over length in the run [-].
+    /// Length in the prototype divided by length in the run [-].
     pub scale: f64,
     /// Share of the units that moved further than the damage distance [-].
     pub damaged_ratio: f64,
@@ -39,7 +39,7 @@ pub struct Breakage {
     pub impacts: Vec<Outcome>,
 }
 
-/// Breakage of a unit. Forces, stresses and areas are at prototype scale.
+/// Displacement and breakage of a unit. Forces, stresses and areas are at prototype scale.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UnitBreakage {
     /// Number of the unit, from 1.
@@ -48,19 +48,21 @@ pub struct UnitBreakage {
     pub displacement_m: f64,
     /// True if the displacement exceeds the damage distance.
     pub damaged: bool,
-    /// Largest force of the recorded impacts, scaled by Hertz's law [N]; 0 without impacts.
+    /// Largest force of the unit's recorded impacts, scaled by Hertz's law [N]; 0 without impacts.
     pub peak_force_n: f64,
-    /// Largest nominal stress of the recorded impacts by beam theory [Pa]; none for units from STL.
+    /// Largest nominal stress of the unit's recorded impacts by beam theory [Pa]; none for units from STL files.
     pub nominal_stress_pa: Option<f64>,
-    /// Largest computed first principal stress [Pa]; none if no impact of the unit was re-run.
+    /// Largest first principal stress in the re-runs of the unit's impacts [Pa]; none if no impact of the unit was
+    /// re-run.
     pub sigma_1_pa: Option<f64>,
     /// Largest crack area in the re-runs of the unit's impacts [m2]; none if no impact of the unit was re-run.
     pub crack_area_m2: Option<f64>,
-    /// Largest number of pieces in the re-runs of the unit's impacts.
+    /// Largest number of pieces in the re-runs of the unit's impacts; none if no impact of the unit was re-run.
     pub pieces: Option<usize>,
-    /// Mass of the heaviest piece over the mass of the unit [-]: smallest value in the re-runs of the unit's impacts.
+    /// Mass of the heaviest piece divided by the mass of the unit [-]: smallest value in the re-runs of the unit's
+    /// impacts; none if no impact of the unit was re-run.
     pub heaviest_share: Option<f64>,
-    /// True if the unit broke, that is, if `heaviest_share` is below 0.95.
+    /// True if the unit broke, that is, if `heaviest_share` is below 0.95; none if no impact of the unit was re-run.
     pub broken: Option<bool>,
 }
 
@@ -73,7 +75,7 @@ pub struct Outcome {
     pub way: RerunMethod,
     /// Number of the unit, from 1.
     pub unit: usize,
-    /// Number of the other unit, from 1; none for bed and walls.
+    /// Number of the other unit of the impact, from 1; none for an impact on bed or wall.
     pub partner: Option<usize>,
     /// Time in the run at which the contact began [s].
     pub t_s: f64,
@@ -87,9 +89,9 @@ pub struct Outcome {
     pub blow_s: f64,
     /// Mass, momentum and energy of the unit in the run and in the fracture run, at prototype scale.
     pub balance: Balance,
-    /// Results for the unit, and for its partner if the partner is a unit that was part of the re-run.
+    /// Results for the unit, and for the other unit if it was part of the re-run.
     pub found: Vec<Found>,
-    /// Largest residual of the energy balance over the largest kinetic energy [-].
+    /// Largest residual of the energy balance, divided by the largest kinetic energy [-]; none if the run failed.
     pub energy_residual_ratio: Option<f64>,
     /// Reason why the fracture run failed; none if it succeeded.
     pub failure: Option<String>,
@@ -106,7 +108,7 @@ pub struct Found {
     pub crack_area_m2: f64,
     /// Number of pieces; 1 for a unit in one piece.
     pub pieces: usize,
-    /// Mass of the heaviest piece over the mass of the unit [-].
+    /// Mass of the heaviest piece divided by the mass of the unit [-].
     pub heaviest_share: f64,
     /// Change of momentum from just before the impact to the end of the fracture run [N s].
     pub impulse_n_s: [f64; 3],
@@ -208,7 +210,7 @@ impl Breakage {
     /// Name of the result table in the run folder.
     pub const TABLE: &str = "breakage.csv";
 
-    /// Collects the results of the impacts for each unit of a run.
+    /// Collects, for each unit of a run, the results of its impacts.
     pub fn of(
         model: &Model,
         settings: &BreakageSettings,

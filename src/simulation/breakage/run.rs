@@ -46,12 +46,12 @@ struct Job<'a> {
 }
 
 /// Re-runs the hardest impacts of the run in `dir` at prototype scale. Writes cases and results into the subfolder
-/// `impacts`, and the summary into `breakage.json` and `breakage.csv`. Existing results of an unchanged case are used
-/// again. `moved` is the displacement of each unit.
+/// `impacts`, and the summary into `breakage.json` and `breakage.csv`. If a fracture case has not changed since an
+/// earlier analysis, its existing results are used. `moved` is the displacement of each unit in the run.
 ///
 /// # Errors
-/// If a file cannot be read or written, or the user stops the analysis. A fracture run that fails is no error; the
-/// result lists it.
+/// If a file cannot be read or written, or the user stops the analysis. If a fracture run fails, the analysis
+/// continues, and the results contain the reason.
 pub fn analyse_breakage(
     model: &Model,
     settings: &BreakageSettings,
@@ -159,7 +159,7 @@ impl Job<'_> {
     }
 }
 
-/// Makes an empty folder; deletes an existing folder with its content.
+/// Creates an empty folder; first deletes an existing folder of this name with its content.
 fn make_empty_folder(dir: &Path) -> Result<(), OutputError> {
     if dir.exists() {
         fs::remove_dir_all(dir).map_err(OutputError::io(dir))?;

@@ -13,13 +13,13 @@ pub fn hardness(impact: &Impact, by: ImpactMeasure) -> f64 {
     }
 }
 
-/// Returns the impacts to re-run as indices into the list, the hardest first. When a unit lands on three feet, only the
-/// hardest contact is selected, because its re-run includes the other contacts.
+/// Returns the indices of the impacts to re-run, the hardest first. If a unit lands on three feet, only the hardest
+/// contact is selected, because its re-run includes the other two contacts.
 pub fn select(impacts: &Impacts, selection: &Selection) -> Vec<usize> {
     let all = &impacts.impacts;
     let score = |index: &usize| hardness(&all[*index], selection.by);
     let mut order: Vec<usize> = (0..all.len()).filter(|index| score(index) >= selection.at_least).collect();
-    // The sort is stable: equal impacts keep the order of the file, in which larger forces come first.
+    // The sort is stable: impacts that are equally hard keep the order of the file, in which larger forces come first.
     order.sort_by(|a, b| score(b).total_cmp(&score(a)));
     let mut chosen: Vec<usize> = Vec::new();
     for index in order {
@@ -33,7 +33,8 @@ pub fn select(impacts: &Impacts, selection: &Selection) -> Vec<usize> {
     chosen
 }
 
-/// Returns true if two contacts are between the same bodies and begin within the duration of the longer impact.
+/// Returns true if two contacts are between the same bodies, and the time between their starts is at most the duration
+/// of the longer impact. This duration is estimated as twice the time from start to peak force.
 pub fn same_collision(a: &Impact, b: &Impact) -> bool {
     let bodies = |impact: &Impact| {
         let (body, partner) = (Some(impact.event.body), impact.event.partner_unit());

@@ -43,17 +43,18 @@ pub struct DryTest {
 /// Measurements that the tables do not contain; part of every checkpoint.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Measured {
-    /// Slope of the bed at which each unit began to slide [rad]; `None` for a unit that has not slid.
+    /// Slope of the bed at which each unit began to slide [rad]; `None` for a unit that has not begun to slide.
     pub slides_at: Vec<Option<f64>>,
     /// Mechanical energy at the start: sum of kinetic, potential and elastic energy [J].
     pub energy_start: f64,
     /// Mechanical energy at the last measurement [J].
     pub energy: f64,
-    /// Largest rise of the mechanical energy between two successive measurements [J]; not measured in a tilt test.
+    /// Largest rise of the mechanical energy between two successive measurements [J]; 0 in a tilt test, where it is not
+    /// measured.
     pub largest_rise: f64,
     /// Time at which all units came to rest [s]; `None` while a unit moves or if the case has no rest criterion.
     pub at_rest_since: Option<f64>,
-    /// Number of recorded contacts: first with bed and walls, then between units.
+    /// Number of recorded contacts: first those with bed and walls, then those between units.
     pub contacts: [u64; 2],
     /// Largest force of any recorded contact [N].
     pub peak_force: f64,
@@ -101,7 +102,7 @@ impl DryTest {
         let dt = MEASUREMENT_INTERVAL.min(until - self.time()).max(0.0);
         if let DryTestKind::Tilt { .. } = self.case.test {
             let slope = self.slope();
-            // The axes are fixed to the bed. Tilting the bed therefore turns gravity towards the shore.
+            // The axes are fixed to the bed. Instead of the bed, the direction of gravity is tilted, towards the shore.
             self.world.set_gravity(self.case.gravity * DVec3::new(slope.sin(), 0.0, -slope.cos()));
         }
         self.world.advance(dt, &loads)?;

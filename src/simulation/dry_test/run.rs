@@ -77,7 +77,7 @@ impl Run for RecordedRun {
 /// Returns the reason to end the run, or `None` if the run continues.
 fn stop_rule(run: &DryTest) -> Option<Stopped> {
     let (stop, time) = (&run.case.stop, run.time());
-    // Because of rounding, the sum of the steps may be slightly less than the duration.
+    // Because of rounding errors, the sum of the time steps may be slightly less than the duration.
     if time >= stop.duration - 1e-9 {
         return Some(Stopped::Duration);
     }

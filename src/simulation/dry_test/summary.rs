@@ -24,11 +24,11 @@ pub struct DryTestSummary {
     pub substeps: u64,
     /// Number of contacts at the end.
     pub contacts_now: usize,
-    /// Number of contacts since the start: first with bed and walls, then between units.
+    /// Number of contacts since the start: first those with bed and walls, then those between units.
     pub contacts: [u64; 2],
     /// Largest force of any contact [N].
     pub peak_force_n: f64,
-    /// Deepest overlap of a contact at the end, over the height of a unit [-].
+    /// Deepest overlap of a contact at the end, divided by the height of a unit [-].
     pub deepest_overlap: f64,
     /// Kinetic energy at the end [J].
     pub kinetic_j: f64,
@@ -36,10 +36,10 @@ pub struct DryTestSummary {
     pub energy_start_j: f64,
     /// Mechanical energy at the end [J].
     pub energy_end_j: f64,
-    /// Largest rise of the mechanical energy within a millisecond [J]; none in a tilt test, because the bed does work
-    /// there.
+    /// Largest rise of the mechanical energy within a millisecond [J]; none in a tilt test, because the tilting bed
+    /// does work on the units.
     pub largest_rise_j: Option<f64>,
-    /// Time at which all units came to rest [s]; none if a unit still moves or the case has no rest criterion.
+    /// Time at which all units came to rest [s]; none if a unit still moves, or if the case has no rest criterion.
     pub at_rest_since_s: Option<f64>,
     /// The units.
     pub units: Vec<DryUnit>,
@@ -47,7 +47,7 @@ pub struct DryTestSummary {
     pub assumptions: Vec<String>,
     /// Warnings.
     pub warnings: Vec<String>,
-    /// Wall time and machine.
+    /// Wall-clock time of the last session, and machine.
     pub execution: Execution,
 }
 
@@ -67,7 +67,7 @@ pub struct DryUnit {
     /// Slope at which the unit began to slide in a tilt test [degrees].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slides_at_deg: Option<f64>,
-    /// Friction coefficient: the tangent of `slides_at_deg` [-].
+    /// Friction coefficient from a tilt test: the tangent of `slides_at_deg` [-].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
 }

@@ -23,8 +23,8 @@ use crate::{
     },
 };
 
-/// Largest displacement at which a unit counts as still, over the height of the unit [-]. A unit that rolls or slides
-/// moves further.
+/// Largest displacement of a unit that counts as still, divided by the height of the unit [-]. A unit that rolls or
+/// slides moves further.
 pub const STILL: f64 = 0.01;
 
 /// A simulation that starts from the state of another run with the same flume and wave.
@@ -35,11 +35,11 @@ pub struct Start<'a> {
 }
 
 impl<'a> Start<'a> {
-    /// Sets up a case, and restores the checkpoint of another run in the folder `from`. The two cases may differ only
-    /// in the keys [`Case::KEYS_FREE_AT_START`]. Writes no file.
+    /// Sets up a case, and restores the checkpoint of another run in the folder `from`. The cases of the two runs may
+    /// differ only in the keys [`Case::KEYS_FREE_AT_START`]. Writes no file.
     ///
     /// # Errors
-    /// If the other run has no checkpoint, its case differs too much, or its units have moved.
+    /// If the other run has no checkpoint, its case differs in other keys, or its units have moved.
     pub fn at(case: Arc<Case>, from: &'a Path, options: &RunOptions) -> Result<Self, RunError> {
         let refused =
             |reason: String| RunError::setup(format!("{}: the run cannot begin there: {reason}", from.display()));
@@ -58,12 +58,12 @@ impl<'a> Start<'a> {
         if height.is_some_and(|height| moved > STILL * height) {
             let moved = 1e3 * moved;
             return Err(refused(format!(
-                "a unit has moved {moved:.1} mm by {time:.3} s; begin while all units are still"
+                "at {time:.3} s, a unit has already moved by {moved:.1} mm; begin while all units are still"
             )));
         }
         simulation.statistics.rest = Rest::default();
         let warning =
-            format!("computed until {time:.3} s with the friction of another run; the units had not moved by then");
+            format!("results until {time:.3} s are those with the friction of another run; no unit had moved by then");
         simulation.statistics.warnings.push(warning);
         Ok(Self { simulation, outputs, from })
     }
@@ -81,7 +81,7 @@ impl<'a> Start<'a> {
     }
 }
 
-/// Returns a message that lists the keys in which two case files differ but must not differ.
+/// Returns a message that lists the keys that differ between two case files but must be equal.
 pub fn difference(one: &str, other: &str) -> String {
     let keys = differing_keys(one, other);
     let allowed = Case::KEYS_FREE_AT_START.join(", ");

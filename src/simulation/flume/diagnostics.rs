@@ -9,8 +9,8 @@ use super::{
 };
 use crate::sph::solver::backend::WaterExtremes;
 
-/// Mach number above which the water is no longer nearly incompressible [-]. The relative change of density is the
-/// square of the Mach number; weakly compressible SPH allows 1 % (Monaghan 1994).
+/// Mach number above which the water is no longer nearly incompressible [-]. The relative change of density is about
+/// the square of the Mach number; weakly compressible SPH allows 1 % (Monaghan 1994).
 pub const LARGEST_MACH: f64 = 0.1;
 
 impl Simulation {
@@ -38,8 +38,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Like [`Self::watch_water`], for extremes that a device has computed. Particles are fetched only if a message
-    /// names a particle.
+    /// Like [`Self::watch_water`], for extremes that a graphics card has computed. Particles are copied from the card
+    /// only if a message must name a particle.
     fn check_device_extremes(&mut self, water: &WaterExtremes) -> Result<(), Failure> {
         let mach = water.largest_speed / self.case.fluid.sound_speed;
         let rho0 = self.case.fluid.rho0;
@@ -56,7 +56,7 @@ impl Simulation {
             if let Some(failure) = failure::find_wrong_density(self, &extremes) {
                 return Err(failure);
             }
-            // The graphics card computes its extremes before velocities into surfaces are removed.
+            // The graphics card computes the extremes before velocity components into solids are removed. Check again.
             if fast && extremes.fastest.0 > LARGEST_MACH * self.case.fluid.sound_speed {
                 self.statistics.warnings.push(mach_warning(self, &Particle::of(&self.water, extremes.fastest.1)));
             }
@@ -90,14 +90,14 @@ impl Simulation {
 
 fn mach_warning(simulation: &Simulation, fastest: &Particle) -> String {
     let (case, DVec3 { x, y, z }) = (&simulation.case, fastest.place);
-    // Round to three decimals, to get the number of the case file without rounding errors.
+    // Rounding to three decimals gives the number of the case file, without rounding errors.
     let factor = case.fluid.sound_speed / (case.fluid.gravity * case.domain.depth).sqrt();
     let factor = (1e3 * factor).round() / 1e3;
     format!(
         "at {:.3} s water moves at {:.2} m/s near x = {x:.3}, y = {y:.3}, z = {z:.3} m (particle {}), faster than a \
          tenth of the speed of sound of the run, {:.1} m/s: its density changes by more than 1 %, and pressures and \
-         forces of its impact are doubtful. If it is more than spray, raise fluid.sound_speed_factor (now {}); the run \
-         time rises in proportion",
+         forces of its impact are unreliable. If this water is more than spray, raise fluid.sound_speed_factor (now \
+         {}); the computing time rises in proportion",
         simulation.flume_time(),
         fastest.speed,
         fastest.id,

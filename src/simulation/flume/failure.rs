@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Relative change of density above which a run fails [-]. DualSPHysics removes particles outside 700 to 1300 kg/m3 by
-/// default. In a coarse dam break that hits a unit at Mach 0.17, the change stays within 5 %.
+/// default. In a coarse run of a dam break that hits a unit at Mach 0.17, the density changes by at most 5 %.
 pub(super) const LARGEST_COMPRESSION: f64 = 0.3;
 
 /// Usual causes of unstable water.
@@ -34,7 +34,7 @@ pub struct Particle {
 }
 
 impl Particle {
-    /// Returns the particle at an index of the arrays.
+    /// Returns the water particle with this index in the arrays of `water`.
     pub(super) fn of(water: &Water, index: usize) -> Self {
         Self {
             id: water.id[index],
@@ -62,7 +62,7 @@ pub enum Failure {
     /// A position, velocity, density or rate of the water is not finite.
     #[error("the water has become unstable after {time:.4} s (step {step}): {what}: {particle}; {UNSTABLE_ADVICE}")]
     Unstable { time: f64, step: u64, what: &'static str, particle: Particle },
-    /// The density of the water is impossible.
+    /// The density of the water differs too much from the density at rest.
     #[error(
         "the water has become unstable after {time:.4} s (step {step}): {particle}, {change:+.0} % from the {rho0} \
          kg/m3 of water at rest; {UNSTABLE_ADVICE}"
@@ -74,9 +74,9 @@ pub enum Failure {
     /// A unit overlaps another body more than the contact law allows.
     #[error(
         "after {time:.4} s (step {step}) unit {unit} at x = {:.3}, y = {:.3}, z = {:.3} m, with {speed:.2} m/s, \
-         overlaps {partner} by {:.3} mm; its rounding radius allows {:.3} mm. The contact is too soft for this impact: \
-         raise young_modulus_pa of the material or contact.rounding_share, and check in diagnostics.csv whether the \
-         water around the unit is stable", place.x, place.y, place.z, depth * 1e3, allowed * 1e3
+         overlaps {partner} by {:.3} mm; its rounding radius allows at most {:.3} mm. The contact is too soft for this \
+         impact: raise young_modulus_pa of the material or contact.rounding_share, and check in diagnostics.csv \
+         whether the water is stable", place.x, place.y, place.z, depth * 1e3, allowed * 1e3
     )]
     TooDeep {
         time: f64,
@@ -105,8 +105,8 @@ pub enum Failure {
     Units { time: f64, step: u64, source: RigidError },
 }
 
-/// Returns the failure for a particle whose state is not finite, if possible for a particle with a finite position. If
-/// only a rate is not finite, the failure names the fastest particle.
+/// Returns the failure for a particle whose state is not finite. Prefers a particle whose position is still finite. If
+/// all states are finite and only a rate is not, the failure names the fastest particle.
 pub(super) fn not_finite(simulation: &Simulation) -> Failure {
     let water = &simulation.water;
     let first = |bad: &dyn Fn(usize) -> bool| (0..water.len()).find(|&i| bad(i));
@@ -116,7 +116,7 @@ pub(super) fn not_finite(simulation: &Simulation) -> Failure {
     let (what, index) = match bad {
         Some(i) => ("position, velocity or density is no longer a finite number", Some(i)),
         None => (
-            "an acceleration or a density rate is no longer a finite number; the fastest particle is",
+            "an acceleration or a density rate is no longer a finite number; fastest particle",
             (0..water.len()).max_by(|&a, &b| speed(a).total_cmp(&speed(b))),
         ),
     };
@@ -151,7 +151,8 @@ pub(super) fn find_escape(simulation: &Simulation) -> Option<Failure> {
     Some(Failure::Escaped { time, step, particle: Particle::of(water, i), advice })
 }
 
-/// Returns the failure for the lightest or densest particle, if its density is impossible.
+/// Returns the failure for the particle of highest or lowest density, if this density differs too much from the density
+/// of water at rest; otherwise `None`.
 pub(super) fn find_wrong_density(simulation: &Simulation, extremes: &Extremes) -> Option<Failure> {
     let rho0 = simulation.case.fluid.rho0;
     let change = |density: f64| density / rho0 - 1.0;
@@ -166,8 +167,8 @@ pub(super) fn find_wrong_density(simulation: &Simulation, extremes: &Extremes) -
     })
 }
 
-/// Converts an error of the rigid-body solver to a failure of the run. The failure has the time of the run, because the
-/// time of the solver starts at the release of the units.
+/// Converts an error of the rigid-body solver to a failure of the run. The failure states the time of the run. The time
+/// in the error is different, because the time of the rigid-body solver starts at the release of the units.
 pub(super) fn of_units(simulation: &Simulation, error: RigidError) -> Failure {
     let (time, step) = (simulation.time, simulation.steps);
     let last = |body: usize| {
@@ -218,7 +219,7 @@ pub(super) mod tests {
         simulation(&tank_case())
     }
 
-    /// Returns the tank with a Tetrapod that can move from the start.
+    /// Returns the tank with a Tetrapod that is free to move from the start.
     fn tank_with_unit() -> Simulation {
         let mut case = tank_case();
         case["units"] = json!({
@@ -228,7 +229,7 @@ pub(super) mod tests {
         simulation(&case)
     }
 
-    /// Makes time steps until the run fails; returns the error message.
+    /// Makes up to three time steps, of which one must fail; returns the error message.
     fn failure(simulation: &mut Simulation) -> String {
         for _ in 0..3 {
             let done = simulation.step();

@@ -1,10 +1,10 @@
 //! Impermeable surfaces: water does not flow through solids.
 //!
-//! mDBC gives a boundary the pressure of the nearby water, but it is no barrier for particles. A water particle that
-//! hits an edge or enters the wedge under a unit can pass through the surface. Therefore the few particles nearer to a
-//! surface than [`NEAREST`] obey the kinematic condition of an impermeable surface: the part of their relative velocity
-//! towards the surface is removed. In calm water no particle is affected, because particles stay half a particle
-//! spacing away from surfaces. A unit receives the momentum that is removed from the water as an impulse.
+//! mDBC gives the boundary particles the pressure of the nearby water, but it does not stop every particle. A water
+//! particle that hits an edge, or enters the narrow gap under a unit, can pass through the surface. Therefore the few
+//! particles nearer to a surface than [`NEAREST`] obey the kinematic condition of an impermeable surface: the component
+//! of their relative velocity towards the surface is removed. In calm water no particle is affected, because particles
+//! stay half a particle spacing away from surfaces. A unit receives the removed momentum of the water as an impulse.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -22,13 +22,13 @@ use crate::{
     waves::generation::wavemaker::Wavemaker,
 };
 
-/// Water particles nearer to a surface than this cannot approach it further; distance in particle spacings. In calm
-/// water, their distance is twice as large.
+/// Water particles nearer to a surface than this cannot approach it further: distance divided by the particle spacing
+/// [-]. In calm water, the distance of the nearest particles is twice as large.
 pub const NEAREST: f64 = 0.25;
 
 impl Simulation {
-    /// Removes the velocities of water particles into bed, walls, obstacles, wavemaker and units, at the end of a time
-    /// step of length `dt` [s]. Adds the impulses on the units to the loads of the water on the units.
+    /// Removes the velocity components of near water particles towards bed, walls, obstacles, wavemaker and units, at
+    /// the end of a time step of length `dt` [s]. Adds the impulses on the units, divided by `dt`, to the water loads.
     ///
     /// # Errors
     /// If the device is lost.
@@ -46,7 +46,7 @@ impl Simulation {
         };
         let dp = case.domain.dp;
         let nearest = NEAREST * dp;
-        // A device returns only particles near surfaces. Without a device, the bins find the particles near the units.
+        // A graphics card returns only the particles near surfaces. On a processor, the bins find those near the units.
         let mut keep_out = |water: &mut Water, bins: Option<&Bins>| {
             keep_out_of_walls(water, outline, nearest);
             if case.domain.sides == Sides::Walls {
@@ -78,7 +78,8 @@ impl Simulation {
     }
 }
 
-/// Returns the impermeable surfaces. `rows` has the displacement [m] and velocity [m/s] of each row of the wavemaker.
+/// Returns the impermeable surfaces for a graphics card. `rows` has the displacement [m] and velocity [m/s] of each row
+/// of the wavemaker.
 fn surfaces(
     case: &Case,
     outline: &Outline,
@@ -109,7 +110,7 @@ fn surfaces(
     }
 }
 
-/// Returns the velocity; a component opposite to the unit vector `normal` is removed.
+/// Returns `velocity` without its component opposite to the unit vector `normal`, if it has such a component.
 fn without_approach(velocity: DVec3, normal: DVec3) -> DVec3 {
     velocity - velocity.dot(normal).min(0.0) * normal
 }
@@ -125,7 +126,7 @@ fn keep_out_of_walls(water: &mut Water, outline: &Outline, nearest: f64) {
 
 fn keep_out_of_obstacle(water: &mut Water, obstacle: &AxisBox, nearest: f64) {
     (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
-        // A fast check skips the many particles that are far away.
+        // Skip the many particles that are not near the obstacle, before the slower search for the surface point.
         if (*position - obstacle.nearest(*position)).length_squared() >= nearest * nearest {
             return;
         }
@@ -164,8 +165,8 @@ fn keep_out_of_wavemaker(water: &mut Water, wavemaker: &Wavemaker, rows: &[[f64;
     });
 }
 
-/// Removes velocities of water particles into units. Returns the impulse on each unit [N s] and its moment about the
-/// centre of mass [N m s].
+/// Removes the velocity components of near water particles towards the units. Returns the impulse on each unit [N s],
+/// and its moment about the centre of mass [N m s].
 fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: Option<&Bins>, nearest: f64) -> Vec<Load> {
     let reach = units.shape.parts().iter().map(reach_of).fold(0.0, f64::max) + nearest;
     let keep_out = |state: &BodyState| {
@@ -200,18 +201,20 @@ fn reach_of(part: &ConvexPart) -> f64 {
     centre.length() + radius
 }
 
-/// Returns the outward normal of a unit, if the point `arm` [m] from its centre is within `nearest` [m] of its surface.
+/// Returns the outward normal of a unit at the point `arm` [m] from its centre of mass; `None` if this point is not
+/// within `nearest` [m] of the surface.
 fn normal_within(parts: &[ConvexPart], state: &BodyState, arm: DVec3, nearest: f64) -> Option<DVec3> {
     let local = state.rotation.inverse() * arm;
     let distances = parts.iter().map(|part| (part, part.distance(local)));
     let (part, distance) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    // The normal points away from the core of the part or, inside the core, away from the centre of mass.
+    // The core is the part without its rounding. Outside the core, the normal points away from the core; inside, it
+    // points away from the centre of mass.
     let outwards = (local - part.nearest(local)).try_normalize().or(local.try_normalize())?;
     (distance < nearest).then(|| state.rotation * outwards)
 }
 
-/// Returns the water particles in the bins around `centre`. The particles have moved little since they were sorted into
-/// bins.
+/// Returns the water particles in the bins within `reach` [m] of `centre`. A margin of half a bin covers the motion of
+/// the particles since they were sorted into bins.
 fn candidates<'a>(grid: &Grid, bins: &'a Bins, centre: DVec3, reach: f64) -> impl Iterator<Item = usize> + use<'a> {
     let [nx, ny, _] = grid.count;
     let margin = reach + 0.5 * grid.size.x;

@@ -2,14 +2,14 @@
 //!
 //! | entry | what it does |
 //! | --- | --- |
-//! | [`setup`], [`scheme`] | simulation and SPH scheme of a case |
+//! | [`setup`], [`scheme`] | set-up of the simulation, and SPH parameters, from a case |
 //! | [`step`] | one time step, in the order of the algorithm |
 //! | [`run`] | the run of a case: outputs, checkpoints, rest criterion |
 //! | [`branch`] | runs that begin at the checkpoint of another run |
 //! | [`failure`] | failures of a time step: cause, position, advice |
-//! | `diagnostics` | rows of `diagnostics.csv`, and warnings about doubtful water |
-//! | `impermeable` | impermeable surfaces of the solids |
-//! | [`wave`] | wave of a case, absorption at the wavemaker, zones at the ends of the domain |
+//! | `diagnostics` | rows of `diagnostics.csv`, and warnings if the water is too fast |
+//! | `impermeable` | impermeable surfaces: no water particle flows into a solid |
+//! | [`wave`] | wave of a case, active absorption, damping and relaxation zones |
 //! | [`measures`] | energy balance, extremes, mean loads, rest criterion: quantities that a run accumulates |
 //! | [`outputs`] | tables, ParaView files, checkpoints, summary |
 
@@ -59,14 +59,14 @@ pub struct Simulation {
     pub units: Option<Units>,
     /// Time since the particles started [s].
     pub time: f64,
-    /// Number of time steps made.
+    /// Number of time steps since the particles started.
     pub steps: u64,
     /// Flume time at which the particles started [s].
     pub start: f64,
-    /// Time since the particles started at which, in the flume model, the crest of a solitary wave has reached all
-    /// units [s]; 0 for other waves.
+    /// Time at which, in the flume model, the crest of a solitary wave has reached all units [s]; 0 for other waves.
+    /// Like `time`, it counts from the start of the particles.
     pub crest: f64,
-    /// Extremes and counts of the run.
+    /// Extremes and counts since the start of the run.
     pub statistics: Statistics,
     solver: Box<dyn Backend>,
     /// Wavemaker of the particle domain; `None` if the case has no wave.
@@ -87,16 +87,16 @@ pub struct Units {
     pub world: RigidWorld,
     /// Poses of the units at the start.
     pub start: Vec<BodyState>,
-    /// Force and torque of the water on each unit in the last time step.
+    /// Force [N] and torque [N m] of the water on each unit in the last time step.
     pub fluid_loads: Vec<Load>,
-    /// Mean loads for the next rows of `units.csv`.
+    /// Sums for the mean loads in the next rows of `units.csv`.
     pub mean_loads: MeanLoads,
     /// Water loads at the force peaks of the hardest impacts.
     pub water_at_impacts: WaterAtImpacts,
 }
 
 impl Simulation {
-    /// Moves the particles of wavemaker and units to their current positions.
+    /// Moves the boundary particles of wavemaker and units to their positions at the current time.
     pub fn place_boundary(&mut self) {
         let flume_time = self.flume_time();
         move_wavemaker(&mut self.boundary, self.wavemaker.as_ref(), &self.absorbed, flume_time, 0.0);
@@ -110,7 +110,7 @@ impl Simulation {
         self.start + self.time
     }
 
-    /// Returns x of the foremost row of the wavemaker [m]; `None` without a wavemaker.
+    /// Returns the position x of the most shoreward row of the wavemaker [m]; `None` without a wavemaker.
     pub fn wavemaker_front(&self) -> Option<f64> {
         let front =
             |wavemaker: &Wavemaker| wavemaker.foremost_row_x_m(self.flume_time()) + self.absorbed.displacement_m;
@@ -143,8 +143,8 @@ impl Simulation {
         self.solver.water_rates()
     }
 
-    /// Copies water and boundary from the device to the host's arrays. Allowed between time steps and between the two
-    /// halves of a time step.
+    /// Copies water and boundary from a graphics card to the arrays in host memory; does nothing on a processor.
+    /// Allowed between time steps and between the two halves of a time step.
     ///
     /// # Errors
     /// If the device is lost.
@@ -158,7 +158,7 @@ impl Simulation {
         self.solver.device_memory().is_some()
     }
 
-    /// Copies water and boundary from the host's arrays to the device.
+    /// Copies water and boundary from the arrays in host memory to a graphics card; does nothing on a processor.
     ///
     /// # Errors
     /// If the device has too little memory.

@@ -32,8 +32,8 @@ pub struct RunOptions {
     pub control: Control,
     /// Device that computes the water.
     pub device: Device,
-    /// Simulated time at which the run ends early [s], so that other runs can start from this state; `None` to run the
-    /// whole case.
+    /// Simulated time at which the run ends before the end of the case [s], so that other runs can start from its last
+    /// state; `None` for a run to the end of the case.
     pub until: Option<f64>,
 }
 
@@ -111,8 +111,8 @@ impl Run for FlumeRun {
         let checkpoints = self.recorder.state().checkpoints;
         self.recorder.record_due(&mut now)?;
         if now.is_on_gpu() && self.recorder.state().checkpoints > checkpoints {
-            // The positions in the checkpoint differ slightly from those on the graphics card. Load the host's
-            // positions, as a resumed run does, so that both runs give the same results.
+            // The positions in the checkpoint differ slightly from those on the graphics card. Load the positions of
+            // the checkpoint onto the card, as a resumed run does. Both runs then give the same results.
             now.load().map_err(|error| StepFailure::failure(Failure::from(error)))?;
             now = self.simulation.begin_step().map_err(StepFailure::failure)?;
         }
@@ -151,7 +151,7 @@ fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
     // The tips of a unit are about half a unit height from its centre.
     let tips = 0.5 * units.shape.height();
     let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
-    // Check both speed and displacement: units that begin to move have no displacement yet.
+    // Check the speed as well as the displacement: a unit that begins to move has no displacement yet.
     let slow = units.states().iter().all(|state| speed(state) < rule.speed);
     let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
     // Units are also at rest before the wave reaches them: do not stop then.

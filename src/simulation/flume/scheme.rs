@@ -1,4 +1,4 @@
-//! The SPH scheme of a case.
+//! Converts the numerical settings of a case to the parameters of the SPH solver.
 
 use crate::{
     case::{self, Case},

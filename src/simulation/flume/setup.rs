@@ -34,8 +34,8 @@ use crate::{
     },
 };
 
-/// Narrowest gap between a unit and its periodic image that lets water through, in particle spacings. In a narrower
-/// gap, water particles at rest would touch both surfaces.
+/// Narrowest gap between a unit and its periodic image that water can pass, divided by the particle spacing [-]. A
+/// narrower gap has no room for water particles.
 const NARROWEST_GAP: f64 = 0.5;
 
 /// Reason why a case cannot be set up.
@@ -46,18 +46,18 @@ pub enum SetupError {
     Flume(#[from] FlumeError),
     /// The wavemaker would reach the mound or an obstacle.
     #[error(
-        "domain.x_m[0] = {place}: the wavemaker moves with the water by {travel:.2} m, to x = {:.2} m, and would reach \
-         the mound or an obstacle at x = {toe:.2} m; use at most {:.1} m", place + travel, toe - 1.2 * travel
+        "domain.x_m[0] = {place}: the wavemaker moves shoreward by {travel:.2} m, to x = {:.2} m, and would reach the \
+         mound or an obstacle at x = {toe:.2} m; use at most {:.1} m", place + travel, toe - 1.2 * travel
     )]
     WavemakerReachesMound {
-        /// Start position of the wavemaker [m].
+        /// Position x of the wavemaker at the start [m].
         place: f64,
-        /// Travel of the wavemaker [m].
+        /// Largest shoreward displacement of the wavemaker [m].
         travel: f64,
-        /// Position of the toe of the mound or of the seaward face of an obstacle [m].
+        /// Position x of the toe of the mound or of the seaward face of an obstacle [m].
         toe: f64,
     },
-    /// The wave files end before the end of the run.
+    /// The wave files end before the run ends.
     #[error(
         "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, but the particles start \
          at {start:.3} s; use a duration of at most {:.3} s, an earlier `domain.start_s`, or longer files", end - start
@@ -67,7 +67,7 @@ pub enum SetupError {
         duration: f64,
         /// Start of the particles, in the time of the wave files [s].
         start: f64,
-        /// End of the wave files [s].
+        /// Last time for which the wave files contain data [s].
         end: f64,
     },
     /// The units overlap each other or the bed too much.
@@ -79,7 +79,7 @@ pub enum SetupError {
 }
 
 impl Simulation {
-    /// Sets up the simulation of a case at its start; the CPU computes the water.
+    /// Sets up the simulation of a case at its start; the processor computes the water.
     ///
     /// # Errors
     /// If the flume model fails, or the units overlap each other or the bed too much.
@@ -147,10 +147,10 @@ impl Simulation {
     }
 }
 
-/// Checks that the wave files do not end before the run. The particles start at the file time `start` [s].
+/// Checks that the wave files do not end before the end of the run. The particles start at the file time `start` [s].
 ///
 /// # Errors
-/// If the wave files end before the run.
+/// If the wave files end before the end of the run.
 pub fn check_times(case: &Case, start: f64) -> Result<(), SetupError> {
     let case::Wave::External(wave) = &case.wave else { return Ok(()) };
     let ([_, end], duration) = (wave.times(), case.stop.duration);
@@ -186,7 +186,7 @@ fn bounds(case: &Case, seaward_reach: Option<f64>) -> [DVec3; 2] {
     ]
 }
 
-/// Returns the corner points of the bed from x = `from` to x = `to` [m], including the points at both ends.
+/// Returns the corner points (x, z) of the bed from x = `from` to x = `to` [m], and its points at these two ends.
 fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DVec2> {
     let inner = profile.points().iter().filter(move |p| p[0] > from && p[0] < to);
     let points: Vec<DVec2> = inner.map(|&p| DVec2::from_array(p)).collect();
@@ -194,8 +194,8 @@ fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DV
     [end(from)].into_iter().chain(points).chain([end(to)])
 }
 
-/// Returns the outline of bed, mound and end walls. A wavemaker replaces the seaward wall. The bed then extends seaward
-/// below the wavemaker, which moves seaward by at most `seaward_reach` [m].
+/// Returns the outline of bed, mound and end walls. If there is a wavemaker, it replaces the seaward wall, and the bed
+/// continues below it. `seaward_reach` is the largest seaward displacement of the wavemaker [m].
 fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
     let ([x0, x1], top) = (case.domain.x, case.domain.top_z);
     let thickness = case.numerics.boundary_layers as f64 * case.domain.dp;
@@ -209,8 +209,8 @@ fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
     Outline::new(points)
 }
 
-/// Returns the particles of bed, mound, walls and obstacles; the side walls extend seaward by `seaward_reach` [m], the
-/// largest seaward displacement of the wavemaker.
+/// Returns the boundary particles of bed, mound, walls and obstacles. The side walls extend beyond the seaward end of
+/// the domain by `seaward_reach` [m], the largest seaward displacement of the wavemaker.
 fn fixed_particles(
     case: &Case,
     outline: &Outline,
@@ -230,13 +230,13 @@ fn fixed_particles(
     let thickness = f64::from(layers) * domain.dp;
     for obstacle in &domain.obstacles {
         let solid = box_particles(obstacle, domain.dp, thickness).into_iter();
-        // On a slope, the lower corner of the box is below the bed. The bed already has particles there.
+        // On a slope, a corner of the box can be below the bed. The bed already has particles there.
         particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x)));
     }
     particles
 }
 
-/// Returns the particles of the wavemaker, each with the index of its row.
+/// Returns the boundary particles of the wavemaker, each with the index of its row.
 fn wavemaker_particles(case: &Case, across: &Across, wavemaker: &Wavemaker) -> Vec<(u32, BoundaryParticle)> {
     let (dp, layers) = (case.domain.dp, case.numerics.boundary_layers as u32);
     let mut particles = Vec::new();
@@ -295,9 +295,9 @@ fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
     Ok(Units { shape, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
 }
 
-/// Returns the particles of a unit in body axes; in two dimensions, the particles of a slice of the unit. If a cuboid
-/// fills the width of a periodic flume, its side faces touch the periodic image. No particle then has its nearest
-/// surface point on a side face.
+/// Returns the boundary particles of a unit in body axes; in two dimensions, those of a slice of the unit. If a cuboid
+/// fills the width of a periodic flume, its side faces touch its periodic images. No surface vector then points to a
+/// side face.
 fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     let case::Domain { dp, width, sides, .. } = case.domain;
     let mut particles = match (shape.as_box(), sides) {
@@ -311,7 +311,7 @@ fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     particles
 }
 
-/// Returns the particles of a unit in body axes.
+/// Returns the boundary particles of a unit in body axes, for the particle spacing `dp` [m].
 pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
     if let Some(bounds) = shape.as_box() {
         return box_particles(&bounds, dp, f64::INFINITY);
@@ -321,7 +321,8 @@ pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
     unit_particles(|point| solid.project(point), low, high, solid.volume_properties().volume, dp)
 }
 
-/// Removes the water inside the units and their periodic images.
+/// Removes the water particles inside the units and their periodic images. Moves other particles outwards if they are
+/// too near to the surface of a unit.
 fn clear_units(water: &mut Water, units: &Units, case: &Case) {
     let (solid, least) = (units.shape.solid(), MIN_DEPTH * case.domain.dp);
     let reach = solid.bounds().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max) * 2.0 + least;

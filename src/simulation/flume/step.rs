@@ -13,11 +13,11 @@ use crate::{
     sph::solver::{backend::DeviceError, power::Powers, sampling::Sampler},
 };
 
-/// A simulation with the rates of its current state, ready for measurements and for the time step.
+/// A simulation whose current state is evaluated: outputs can be written, and the next time step can be made.
 pub struct PreparedStep<'a> {
     simulation: &'a mut Simulation,
     dt: f64,
-    /// True if the host's arrays contain the current state.
+    /// True if the arrays in host memory contain the current state.
     is_fetched: bool,
 }
 
@@ -52,7 +52,7 @@ impl Simulation {
             return Err(failure::not_finite(self));
         }
         if self.steps == 0 {
-            // The first row of the tables needs loads before the first half step: sum the loads at the start.
+            // The first row of the tables is written before the first half step: sum the loads at the start for it.
             self.sum_unit_loads(0.0)?;
         }
         Ok(PreparedStep { simulation: self, dt, is_fetched: false })
@@ -61,7 +61,7 @@ impl Simulation {
     /// Makes one time step; returns the length of the time step [s].
     ///
     /// # Errors
-    /// As [`Self::begin_step`] and [`PreparedStep::finish`].
+    /// As for [`Self::begin_step`] and [`PreparedStep::finish`].
     pub fn step(&mut self) -> Result<f64, Failure> {
         let step = self.begin_step()?;
         let dt = step.dt();
@@ -86,7 +86,7 @@ impl Simulation {
         let Some(units) = &mut self.units else { return Ok(()) };
         let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
         let loads = self.solver.unit_loads(&self.boundary, &centres)?;
-        // In two dimensions the particles are a slice of each unit.
+        // In two dimensions, the particles are only one slice of each unit: multiply by the number of slices.
         let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
         units.fluid_loads = loads.into_iter().map(|load| load.map(|sum| slices * sum)).collect();
         Ok(())
@@ -114,7 +114,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Returns a sampler of the water. The state must be evaluated, and the host's arrays must contain it.
+    /// Returns a sampler of the water. [`Self::begin_step`] must have evaluated the current state, and the arrays in
+    /// host memory must contain this state.
     pub(super) fn sampler(&self) -> Sampler<'_> {
         let parameters = self.solver.parameters();
         Sampler {
@@ -133,7 +134,7 @@ impl PreparedStep<'_> {
         self.dt
     }
 
-    /// Copies water and boundary from the device to the host's arrays, if this was not done in this time step.
+    /// Copies water and boundary from a graphics card to the arrays in host memory, once per time step.
     ///
     /// # Errors
     /// If the device is lost.

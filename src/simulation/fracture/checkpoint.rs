@@ -1,7 +1,7 @@
 //! Writes the state of a fracture run to HDF5 and reads it back bit for bit.
 //!
-//! Arrays are datasets; all other state is one JSON text. Each number in this text has the fewest digits that give the
-//! same bits.
+//! Arrays are datasets. One JSON text contains the rest of the state. Each number in this text has the fewest digits
+//! that read back to the same bits.
 
 use std::path::Path;
 
@@ -35,7 +35,7 @@ pub const FAILED_FILE: &str = "failed.h5";
 /// Version of the file layout; increased when the layout changes.
 const VERSION: u32 = 3;
 
-/// All state except the arrays.
+/// The state of a run without the arrays.
 #[derive(Serialize, Deserialize)]
 struct Header {
     version: u32,
@@ -55,7 +55,7 @@ pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) ->
     write_state(path, &text, |file| write_arrays(file, &state))
 }
 
-/// Restores `world`, the solver at the start of the case, from a checkpoint of this case; returns the state of the run.
+/// Restores `world`, the solver at the start of the case, from a checkpoint of this case. Returns the other state.
 ///
 /// # Errors
 /// If the checkpoint is missing, damaged or of another case.

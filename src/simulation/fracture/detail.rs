@@ -26,10 +26,10 @@ const TET_FIELDS: [(&str, FieldKind); 5] = [
     ("body", FieldKind::Integer),
     ("fragment", FieldKind::Integer),
 ];
-/// Bytes per tetrahedron and output time in `tets.vtkhdf`: fields, offset and type, and its share of the positions and
-/// velocities of the nodes. Meshes of tools/mesh have one node per five tetrahedra.
+/// Bytes per tetrahedron and output time in `tets.vtkhdf`: fields, offset and type, and the share of a tetrahedron in
+/// the positions and velocities of the nodes. Meshes of tools/mesh have one node per five tetrahedra.
 const TET_BYTES: f64 = 40.0 + 9.0 + 24.0 / 5.0;
-/// Bytes of connectivity per tetrahedron.
+/// Bytes per tetrahedron for the list of its nodes (connectivity), which is written once.
 const CONNECTIVITY_BYTES: f64 = 32.0;
 
 /// Open output files of failed faces, cut plane and tetrahedra.
@@ -110,7 +110,7 @@ impl DetailRecorder {
         self.section.as_mut().map_or(Ok(()), |(section, series)| section.record(world, series))
     }
 
-    /// Appends the current state of all tetrahedra if the output interval has passed, or if the run is `over`.
+    /// Appends the current state of all tetrahedra if an output is due, or if the run has ended (`over`).
     ///
     /// # Errors
     /// If the file cannot be written.

@@ -1,4 +1,4 @@
-//! Messages for fracture runs that fail: part of the mesh, position, time, and likely cause.
+//! Messages for fracture runs that fail: element or node, its position, time, and likely causes.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use crate::{
     femdem::world::{World, limits::StepError},
 };
 
-/// Speed over wave speed [-] that no impact of units reaches, because the strains would be 10 %.
+/// Speed divided by wave speed [-] that no impact of units reaches, because strains would be about 10 %.
 const MAX_SPEED_RATIO: f64 = 0.1;
 
 /// Usual causes of an unstable run.
@@ -65,18 +65,18 @@ pub enum Failure {
         time * 1e3
     )]
     NotFinite { time: f64, step: u64, node: Part },
-    /// A node is faster than any wave in the material.
+    /// A node is faster than twice the wave speed in the material.
     #[error(
-        "after {:.5} ms (step {step}) {node} moves at {speed:.3e} m/s, more than the limit of {limit:.3e} m/s from \
-         twice the wave speed and the motion of the case: the run is unstable; {UNSTABLE}", time * 1e3
+        "after {:.5} ms (step {step}) {node} moves at {speed:.3e} m/s, more than the limit of {limit:.3e} m/s, which \
+         is twice the wave speed plus the speed given by the case: the run is unstable; {UNSTABLE}", time * 1e3
     )]
     TooFast { time: f64, step: u64, node: Part, speed: f64, limit: f64 },
     /// A node is too far from the middle of the mesh.
     #[error(
         "after {:.5} ms (step {step}) {node} is {distance:.3} m from the middle of the mesh, more than the limit of \
-         {limit:.3} m from 50 mesh diagonals and the motion of the case: a piece moves away freely (end the run \
-         earlier with stop.duration_s), a body that should stop the piece is missing, or a contact ejected the node \
-         (lower fracture.step_share)", time * 1e3
+         {limit:.3} m, which is 50 mesh diagonals plus the travel given by the case: a piece moves away freely (end \
+         the run earlier with stop.duration_s), a body that should stop the piece is missing, or a contact ejected the \
+         node (lower fracture.step_share)", time * 1e3
     )]
     Escaped { time: f64, step: u64, node: Part, distance: f64, limit: f64 },
     /// Two tetrahedra overlap too much.
@@ -117,13 +117,13 @@ impl Failure {
 fn cause_of_inversion(world: &World, tet: usize, speed: f64) -> &'static str {
     let body = &world.setup().bodies[usize::from(world.tets.body[tet])];
     if speed > MAX_SPEED_RATIO * body.elastic.celerity() {
-        "that is more than a tenth of the wave speed; the velocities of the case are too high for units, or the time \
-         step is too long (lower fracture.step_share)"
+        "this speed is more than a tenth of the wave speed; the velocities of the case are too high for units, or the \
+         time step is too long (lower fracture.step_share)"
     } else if world.contacts.is_in_contact(tet as u32) {
-        "another tetrahedron presses on it; the impact crushes elements of that size: refine the mesh there, or lower \
+        "another tetrahedron presses on it; the impact crushes elements of this size: refine the mesh there, or lower \
          fracture.contact_penalty"
     } else {
-        "it was stretched or sheared flat, often as a sliver next to a crack: remesh with Mesh.Optimize = 1, refine \
-         there, or give the material some viscosity"
+        "it was stretched or sheared flat, often because it is a thin element next to a crack: remesh with \
+         Mesh.Optimize = 1, refine the mesh there, or give the material some viscosity"
     }
 }

@@ -13,7 +13,7 @@ const FILE: &str = "fragments.csv";
 /// A piece of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fragment {
-    /// Index of the body.
+    /// Index of the body, from 0.
     pub body: usize,
     /// Number of tetrahedra.
     pub tets: usize,

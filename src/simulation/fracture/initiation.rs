@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use crate::femdem::world::{Failure, World};
 
-/// A failed face that is further than this from all earlier failed faces begins a new crack; distance over edge length
-/// [-]. A growing crack advances by one element at a time.
+/// A failed face that is further than this from all earlier failed faces begins a new crack: distance divided by the
+/// edge length of the face [-]. A growing crack advances by one element at a time, so its next face is nearer.
 const NEW_CRACK_DISTANCE: f64 = 4.0;
 
 /// Beginning of a crack.
@@ -13,14 +13,14 @@ const NEW_CRACK_DISTANCE: f64 = 4.0;
 pub struct Initiation {
     /// The face of this crack that failed first.
     pub first: Failure,
-    /// Index of the body.
+    /// Index of the body, from 0.
     pub body: usize,
     /// Area of all failed faces that belong to this crack at the end [m2].
     pub area: f64,
 }
 
-/// Returns the beginnings of the cracks, in order of time. A face that fails within four edge lengths of an earlier
-/// failed face belongs to the same crack.
+/// Returns the beginnings of the cracks, in order of time. A face that fails within four edge lengths of earlier failed
+/// faces belongs to the crack of the nearest of these faces.
 pub fn initiations(world: &World) -> Vec<Initiation> {
     let setup = world.setup();
     let mut found: Vec<(Initiation, Vec<DVec3>)> = Vec::new();

@@ -4,11 +4,11 @@
 //! | --- | --- |
 //! | [`run`] | a run from its case or checkpoint to its summary |
 //! | [`recorder`] | tables, surfaces and cracks |
-//! | [`run_state`] | state of a run that its solver does not contain |
+//! | [`run_state`] | state of a run in addition to the state of its solver |
 //! | [`checkpoint`] | writes the state of a run, and reads it to resume the run |
 //! | [`failure`] | messages for runs that fail |
 //! | [`detail`] | outputs of failed faces, cut plane and tetrahedra |
-//! | [`section`] | intersection of the cut plane with the tetrahedra |
+//! | [`section`] | the cut plane: its intersection with the tetrahedra |
 //! | [`fragments`] | pieces into which the bodies broke |
 //! | [`initiation`] | positions at which cracks began |
 //! | [`peak_stress`] | largest tension in each body |

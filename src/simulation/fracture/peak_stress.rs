@@ -7,7 +7,7 @@ use crate::femdem::element::{self, Moduli};
 use crate::femdem::principal_stresses::principal_stresses;
 use crate::femdem::world::World;
 
-/// Largest first principal stress of a body over all rows of the energy balance.
+/// Largest first principal stress of a body, of all times at which the energy balance has a row.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PeakStress {
     /// First principal stress sigma_1 of a tetrahedron, tension positive [Pa].
@@ -36,7 +36,7 @@ pub fn largest_stresses(world: &World) -> Vec<(f64, usize)> {
     world.setup().bodies.iter().map(largest).collect()
 }
 
-/// Updates `peaks`, the largest stress of each body since the start, with `now`, the largest stresses at `time` [s].
+/// Updates the largest stress of each body since the start, `peaks`, with the largest stresses `now` at `time` [s].
 pub fn update_peaks(peaks: &mut Vec<PeakStress>, world: &World, now: &[(f64, usize)], time: f64) {
     let setup = world.setup();
     let peak = |(sigma_1, tet): &(f64, usize)| {

@@ -131,7 +131,7 @@ impl FractureRecorder {
         ])
     }
 
-    /// Appends the current surfaces of the bodies, the crack faces and the cut plane.
+    /// Appends the surfaces of the bodies, the crack faces and the cut plane in their current state.
     ///
     /// # Errors
     /// If a file cannot be written.

@@ -26,7 +26,8 @@ use crate::{
 /// The time step of the case is longer than the mesh allows.
 #[derive(Debug, Error)]
 #[error(
-    "fracture.dt_s = {given:.3e}: must be at most {longest:.3e} s, the longest stable time step of this mesh; leave the key out"
+    "fracture.dt_s = {given:.3e}: must be at most {longest:.3e} s, the longest stable time step of this mesh; use a \
+     shorter time step, or leave the key out"
 )]
 pub struct UnstableStep {
     /// Time step of the case [s].
@@ -51,7 +52,8 @@ pub fn world(case: &FractureCase) -> Result<World, UnstableStep> {
     Ok(world)
 }
 
-/// Number of time steps between two checks of positions and contacts. A check takes a tenth of the time of a time step.
+/// Number of time steps between two checks of positions and contacts. One check takes a tenth of the computing time of
+/// one time step.
 const STEPS_BETWEEN_CHECKS: u64 = 100;
 
 /// Runs a fracture case into an existing, empty folder; `world` is the solver at its start.
@@ -134,7 +136,8 @@ impl<'a> FractureRun<'a> {
         if self.state.watched.impact.is_none() && self.world.contacts.touches_other_body(&self.world.tets) {
             self.state.watched.impact = Some(self.world.time - self.world.dt);
         }
-        // The first checkpoint is due after the first interval, because the case file defines the start.
+        // The first checkpoint is due after one interval: at the start no checkpoint is needed, because the case file
+        // defines the state.
         let checkpoint_due = is_due(self.state.checkpoints + 1, self.case.checkpoint_interval, self.world.time);
         if checkpoint_due || self.state.watched.steps.is_multiple_of(STEPS_BETWEEN_CHECKS) {
             self.world.check_limits().map_err(|error| self.failure(error))?;
@@ -146,7 +149,7 @@ impl<'a> FractureRun<'a> {
         Ok(())
     }
 
-    /// Writes the last outputs. The final energies need one more time step.
+    /// Writes the last outputs and the summary. Makes one more time step, because a time step computes the energies.
     fn finish(&mut self) -> Result<FractureSummary, StepFailure> {
         if self.case.surfaces_interval.is_some() {
             self.record_surfaces()?;

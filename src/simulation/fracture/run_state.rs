@@ -1,16 +1,16 @@
-//! State of a fracture run that its solver does not contain, for tables, summary and checkpoints.
+//! State of a fracture run in addition to the state of its solver: counts, extremes, and lengths of its files.
 
 use serde::{Deserialize, Serialize};
 
 use super::peak_stress::PeakStress;
 use crate::femdem::world::energy_balance::EnergyBalance;
 
-/// State of a run that its [`World`](crate::femdem::world::World) does not contain.
+/// State of a run in addition to the state of its solver [`World`](crate::femdem::world::World).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct RunState {
     /// Extremes and counts since the start.
     pub watched: Watched,
-    /// Total of the energy balance at the start [J]; `None` before its first row.
+    /// Total of the energy balance at the start [J]; `None` before the first row of the energy balance.
     pub total_at_start: Option<f64>,
     /// Number of rows of the energy balance.
     pub rows: u64,
@@ -48,7 +48,7 @@ pub struct Watched {
     pub residual: f64,
     /// Kinetic energy at the start, and largest kinetic energy [J].
     pub kinetic: [f64; 2],
-    /// Time at which two bodies first touched [s]; `None` before.
+    /// Time at which two bodies first touched [s]; `None` until then.
     pub impact: Option<f64>,
     /// Largest tension in each body.
     pub peaks: Vec<PeakStress>,

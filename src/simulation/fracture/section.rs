@@ -20,21 +20,21 @@ pub const SECTION_FIELDS: [(&str, FieldKind); 4] = [
 /// A point on an edge of a tetrahedron.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct EdgePoint {
-    /// Indices, 0 to 3, of the two vertices at the ends of the edge.
+    /// Vertices at the two ends of the edge, numbered from 0 to 3 in the tetrahedron.
     ends: [u8; 2],
     /// Position between the two vertices: 0 at the first, 1 at the second.
     share: f64,
 }
 
-/// Triangles of the intersection of the plane with the tetrahedra.
+/// Triangles of the intersection of the cut plane with the tetrahedra, each with the index of its tetrahedron.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Section {
     triangles: Vec<(u32, [EdgePoint; 3])>,
 }
 
 impl Section {
-    /// Cuts the undeformed bodies. The corners of a triangle run anticlockwise, as seen against the normal of the
-    /// plane.
+    /// Cuts the undeformed bodies. The corners of a triangle are in anticlockwise order for a viewer towards whom the
+    /// normal of the plane points.
     pub fn new(setup: &Setup, plane: &Plane) -> Self {
         let mut triangles = Vec::new();
         for (number, tet) in setup.tets.iter().enumerate() {
@@ -57,7 +57,7 @@ impl Section {
                 if normal.dot(plane.normal) < 0.0 {
                     triangle.swap(1, 2);
                 }
-                // A plane that contains an edge gives triangles without area: omit these.
+                // If the plane contains an edge of the tetrahedron, triangles can have zero area: omit these.
                 if normal.length() > 1e-9 * (corners[1] - corners[0]).length_squared() {
                     triangles.push((number as u32, triangle));
                 }
@@ -116,7 +116,7 @@ mod tests {
     use crate::femdem::mesh::prepare;
     use crate::femdem::setup::Body;
 
-    /// Returns the area of the cut through a box; checks that all triangles face along the normal.
+    /// Returns the area of the cut through a box [m2]; checks that all triangles face in the direction of the normal.
     fn area(plane: Plane) -> f64 {
         let mesh = prepare(block(DVec3::new(0.4, 0.3, 0.2), [4, 3, 2], Pattern::Diagonal)).unwrap();
         let elastic = Elastic { density: 2340.0, young_modulus: 26e9, poisson_ratio: 0.2, viscosity: 0.0 };
@@ -135,7 +135,8 @@ mod tests {
         let through = |point: [f64; 3], normal: DVec3| {
             area(Plane { point: DVec3::from_array(point), normal: normal.normalize() })
         };
-        // Tolerance: rounding. The second plane contains faces of tetrahedra; only the tetrahedra on one side count.
+        // The limit 1e-12 allows only rounding errors. The plane y = 0.1 m contains faces of tetrahedra; only the
+        // tetrahedra on one side of it are cut.
         assert!((through([0.0, 0.13, 0.0], DVec3::Y) - 0.08).abs() < 1e-12);
         assert!((through([0.0, 0.1, 0.0], DVec3::Y) - 0.08).abs() < 1e-12);
         // This plane contains the diagonal of the box in x and z.

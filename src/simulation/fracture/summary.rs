@@ -32,19 +32,19 @@ pub struct FractureSummary {
     pub dt_s: f64,
     /// Number of time steps.
     pub steps: u64,
-    /// Number of tetrahedra times number of time steps, per wall-clock time [1/s].
+    /// Number of tetrahedra times number of time steps, divided by the wall-clock time [1/s].
     pub tet_steps_per_s: f64,
-    /// Largest residual of the energy balance over the largest kinetic energy [-].
+    /// Largest residual of the energy balance, divided by the largest kinetic energy [-].
     pub energy_residual_ratio: f64,
-    /// Largest residual of the energy balance over the kinetic energy at the start [-]; none if the bodies were at
-    /// rest.
+    /// Largest residual of the energy balance, divided by the kinetic energy at the start [-]; none if the bodies start
+    /// at rest.
     pub energy_residual_of_start: Option<f64>,
     /// Time at which two bodies first touched [s]; none if no two bodies touched.
     pub impact_s: Option<f64>,
     /// Area of the faces that failed [m2].
     pub crack_area_m2: f64,
-    /// Energy dissipated in failed faces, minus the energy of their springs on release, over the failed area times G_f
-    /// [-]; none if no face failed.
+    /// Energy dissipated in failed faces, minus the energy of their springs on release, divided by (failed area times
+    /// fracture energy G_f) [-]. G_f is the smallest fracture energy in mode I of all bodies. None if no face failed.
     pub energy_over_g_f: Option<f64>,
     /// Energies at the end [J].
     pub energy_j: EnergyAtEnd,
@@ -69,7 +69,7 @@ pub struct EnergyAtEnd {
     pub kinetic: f64,
     /// Elastic energy of strain, joints and contacts.
     pub stored: f64,
-    /// Potential energy in gravity, zero at the start.
+    /// Potential energy in the gravity field, zero at the start.
     pub gravity: f64,
     /// Energy dissipated by viscosity.
     pub viscous: f64,
@@ -119,11 +119,11 @@ pub struct FragmentSummary {
 pub struct InitiationSummary {
     /// Time at which the first face of the crack failed [s].
     pub t_s: f64,
-    /// Time from the first contact of two bodies to this failure [s]; none if no two bodies touched.
+    /// Time from the first contact of two bodies to `t_s` [s]; none if no two bodies touched.
     pub since_impact_s: Option<f64>,
     /// Name of the body.
     pub body: String,
-    /// Position of this face in the undeformed body [m].
+    /// Position of the first failed face in the undeformed body [m].
     pub place: [f64; 3],
     /// Name of the nearest landmark; none if the case has no landmarks.
     pub near: Option<String>,

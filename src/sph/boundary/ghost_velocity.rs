@@ -1,9 +1,10 @@
 //! Velocity of the water at the ghost nodes of mDBC, for no-slip and free-slip walls. The corrected interpolation is
 //! the same as for the density.
 //!
-//! The interpolated value is a linear function of the field. Therefore the four equations are solved once per node for
-//! the weights of their left-hand sides, the number a and the vector b. The velocity is then one weighted sum over the
-//! water, v = sum_b (a W + b . r_b g) V_b v_b. Here g = -h^2 G, and r_b is in h.
+//! The interpolated value is a linear function of the values at the water particles. Therefore the four equations of
+//! [`mdbc`](super::mdbc) are solved once per node for the weights of their left-hand sides: the number a and the vector
+//! b. The velocity at the node is then one weighted sum over the water particles, v = sum_b (a W + b . r_b g) V_b v_b.
+//! Here W is the kernel, grad W = G r, g = -h^2 G, and r_b is the vector from the node to the particle in units of h.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -22,13 +23,13 @@ use crate::sph::terms::wall_slip::GhostVelocity;
 pub struct GhostVelocities {
     /// Weights a and b of each node, in the order of the sorted nodes.
     weights: Vec<[f32; 4]>,
-    /// Weighted sum of the velocities around each node, in the same order.
+    /// Weighted sum of the water velocities around each node, in the same order.
     sums: Vec<VelocitySum>,
     /// Velocity at the ghost node of each boundary particle; empty before the first computation.
     of_particles: Vec<Option<GhostVelocity>>,
 }
 
-/// Weighted sum of the velocities around a node [m/s].
+/// Weighted sum of the water velocities around a node [m/s].
 #[derive(Debug, Clone, Copy, Default)]
 struct VelocitySum([f32; 3]);
 
@@ -72,9 +73,9 @@ impl GhostVelocities {
     }
 }
 
-/// Returns the weights of the velocity sum; they include the constant factors of W and g. Trust 0 gives the weighted
-/// mean of the water velocities, trust 1 the solution of the four equations. `to_surface` [m] is half the vector from
-/// the boundary particle to the node.
+/// Returns the weights a and b of the velocity sum, including the constant factors of W and g. For the trust 0, the sum
+/// is the weighted mean of the water velocities; for the trust 1, it is the solution of the four equations.
+/// `to_surface` [m] is half the vector from the boundary particle to the node.
 fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVec3) -> [f32; 4] {
     let occupied = f64::from(sums.value[0]);
     if occupied < DRY_LIMIT {
@@ -83,7 +84,7 @@ fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVe
     let (mean, trust) = ([1.0 / occupied, 0.0, 0.0, 0.0], sums.trust(to_surface));
     let fitted = (trust > 0.0).then(|| sums.weights()).flatten().unwrap_or(mean);
     let kernel = &parameters.kernel;
-    // Constant factor of g r, with g = -G h^2 and r in h.
+    // Constant factors of W and of g r, with g = -G h^2 and r in units of h.
     let (w, g) = (f64::from(kernel.scale()), -f64::from(kernel.gradient_scale()) * kernel.h);
     std::array::from_fn(|k| {
         let weight = mean[k] + trust * (fitted[k] - mean[k]);

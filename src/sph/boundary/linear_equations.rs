@@ -1,7 +1,7 @@
-//! Solves four linear equations, for the first-order consistent corrections.
+//! Solves four linear equations, for interpolations that are exact for linear fields: at ghost nodes and at gauges.
 
-/// Solves A x = b by Gaussian elimination with pivoting; `rows` are [A | b]. Returns `None` if |det A| is below
-/// `least`.
+/// Solves A x = b by Gaussian elimination with pivoting. Each entry of `rows` is a row of A, followed by its right-hand
+/// side b. Returns `None` if |det A| is below `least`.
 pub fn solve(mut rows: [[f64; 5]; 4], least: f64) -> Option<[f64; 4]> {
     let mut determinant = 1.0;
     for column in 0..4 {
@@ -45,7 +45,7 @@ mod tests {
         let x = solve(rows, 1e-9).unwrap();
         for row in rows {
             let left: f64 = (0..4).map(|k| row[k] * x[k]).sum();
-            // 1e-12: rounding.
+            // Limit 1e-12: rounding.
             assert!((left - row[4]).abs() < 1e-12);
         }
         assert!(solve([[1.0, 1.0, 0.0, 0.0, 1.0]; 4], 1e-9).is_none());

@@ -7,14 +7,15 @@
 //!   sum_b f_b W V_b      = f sum_b W V_b      + grad f . sum_b r_b W V_b
 //!   sum_b f_b grad W V_b = f sum_b grad W V_b + grad f . sum_b r_b (x) grad W V_b,   r_b from the ghost node to b,
 //!
-//! are solved for f and grad f, and the density is extrapolated along the line from the node to the particle.
+//! are solved for f and grad f. W is the kernel at the node, V_b the volume of b, and (x) the tensor product. The
+//! density of the boundary particle follows from f and grad f by linear extrapolation from the node to the particle.
 //!
 //! If too few particles surround the node, the matrix is ill-conditioned. The published fallback is the mean density of
 //! the neighbours, extrapolated from their centroid to the boundary particle with the hydrostatic gradient. The code
 //! also uses this fallback for thin sheets of water on a dry bed, where all water lies between node and boundary.
-//! There, a gradient fitted to one or two layers would be extrapolated far behind the sheet, and its errors would drive
-//! the sheet apart. If a node has no neighbours, its boundary particle has the reference density. No boundary density
-//! is lower, because a wall exerts pressure on the water but no suction.
+//! There, a gradient fitted to one or two layers of particles would be extrapolated far behind the sheet, and its
+//! errors would drive the sheet apart. If a node has no neighbours, its boundary particle has the reference density
+//! rho0. No boundary density is lower than rho0, because a wall exerts pressure on the water but no suction.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -28,22 +29,23 @@ use crate::sph::neighbours::records::{Record, split_position};
 use crate::sph::parameters::Parameters;
 use crate::sph::particles::boundary::Boundary;
 
-/// Smallest determinant of the scaled matrix for which the gradient is fitted [-], relative to a full neighbourhood
-/// with the same sum of W V. Half a neighbourhood has 0.1. A single layer, or a corner with few particles, is below the
-/// limit.
+/// Smallest determinant of the matrix of the four equations, divided by (sum of W V)^4, for which the gradient is
+/// fitted [-]. The value is 1 for a full neighbourhood, 0.3 for a node at a plane water surface, 0.1 for a node at a
+/// straight edge of the water, and 0 for a single layer of particles.
 pub(in crate::sph) const MIN_DETERMINANT: f64 = 0.01;
 
-/// Distance from the node to the centroid of the water, positive towards the boundary [h]. From the first to the second
-/// value, the trust in the fitted gradient decreases from 1 to 0. The distance is 0.42 h for a node at the surface of
-/// deep water on a bed. It is negative for a node inside the water, or next to the water at a wall that pierces the
-/// surface. The values are calibrated: with 0.2 and 0.4, the thin tip of a dam break on a dry bed was still driven
-/// apart (three cubes, dp = 0.03 m).
+/// Distance from the node to the centroid of the water around it, positive towards the boundary [h]. From the first to
+/// the second value, the trust in the fitted gradient decreases from 1 to 0. The distance is 0.42 h for a node at the
+/// free surface of deep water on a bed. It is negative for a node inside the water and for a node next to a wall that
+/// pierces the free surface, because most water then lies on the far side of the node. The values are calibrated: with
+/// 0.2 and 0.4, the thin tip of a dam break on a dry bed was still driven apart (case with three cubes, dp = 0.03 m).
 pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 
-/// Spread of the water along the wall normal, sum g V r_n^2 / sum W V [h2]. From the first to the second value, the
-/// trust in the fitted gradient increases from 0 to 1. At the node nearest to the wall, the spread is 0.2 to 0.3 for
-/// two layers of particles, 0.5 to 0.65 for three layers and 0.74 for deep water. The values are calibrated with still
-/// water on a beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
+/// Spread of the water around the node along the wall normal, sum g V r_n^2 / sum W V [h2], where g = -G h^2 and r_n is
+/// the normal distance of a particle from the node. From the first to the second value, the trust in the fitted
+/// gradient increases from 0 to 1. For nodes of the first layer of boundary particles, the spread is 0.2 to 0.3 for two
+/// layers of water particles, 0.5 to 0.65 for three layers and 0.74 for deep water. The values are calibrated with
+/// still water on a beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
 pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 
 /// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
@@ -65,7 +67,8 @@ pub struct GhostNodes {
     densities: Vec<f64>,
 }
 
-/// Sums over the water particles around one ghost node, with lengths in h; f is rho - rho0 [kg/m3].
+/// Sums over the water particles around one ghost node. (x, y, z) is the vector from the node to a particle in units of
+/// h; f is rho - rho0 of the particle [kg/m3].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NodeSums {
     /// sum W V (1, x, y, z).
@@ -229,16 +232,16 @@ impl NodeSums {
         position_trust * layer_trust
     }
 
-    /// Returns the solution [f, h grad f] of the four equations for the given left-hand sides; `None` if
-    /// ill-conditioned.
+    /// Returns the solution [f, h grad f] of the four equations for the given left-hand sides, or `None` if the
+    /// equations are ill-conditioned.
     fn value_and_gradient(&self, value_f: f64, [fx, fy, fz]: [f64; 3]) -> Option<[f64; 4]> {
         let [a, b, c, d] = self.matrix();
         let append = |[k, x, y, z]: [f64; 4], right: f64| [k, x, y, z, right];
         self.solve([append(a, value_f), append(b, fx), append(c, fy), append(d, fz)])
     }
 
-    /// Returns the weights with which the four left-hand sides add up to f, from the transposed equations. The weights
-    /// are the same for every field.
+    /// Returns four weights; f at the node is the weighted sum of the four left-hand sides. The weights solve the
+    /// transposed equations and are the same for every field.
     pub(super) fn weights(&self) -> Option<[f64; 4]> {
         let matrix = self.matrix();
         let column = |k: usize| [matrix[0][k], matrix[1][k], matrix[2][k], matrix[3][k], f64::from(u8::from(k == 0))];
@@ -254,8 +257,8 @@ impl NodeSums {
         let [w, wx, wy, wz] = self.value.map(f64::from);
         let [gx, gy, gz] = self.first.map(f64::from);
         let [xx, yy, zz, xy, xz, yz] = self.second.map(f64::from);
-        // In a two-dimensional flume all neighbours lie in the plane of the node; use the value of a full
-        // neighbourhood.
+        // In a two-dimensional flume all neighbours lie in the plane of the node, so sum g V yy is zero. Use the value
+        // of a full neighbourhood.
         let yy = if yy == 0.0 { w } else { yy };
         [[w, wx, wy, wz], [gx, xx, xy, xz], [gy, xy, yy, yz], [gz, xz, yz, zz]]
     }
@@ -278,9 +281,9 @@ mod tests {
         for (z, trust) in [(0.3, 1.0), (-0.1, 1.0), (-0.15, 0.5), (-0.2, 0.0), (-0.5, 0.0)] {
             assert!((layer(z, 0.74, 0.0).trust(bed) - trust).abs() < 1e-6, "{z}");
         }
-        // The direction to the wall matters: below a ceiling, the water lies on the far side of the node.
+        // Same water, but the boundary is a ceiling: the water lies on the far side of the node, and the trust is 1.
         assert_eq!(layer(-0.5, 0.74, 0.0).trust(-bed), 1.0);
-        // Two layers, three layers and deep water.
+        // The spreads of two layers of particles, three layers and deep water.
         for (spread, trust) in [(0.3, 0.0), (0.55, 0.5), (0.74, 1.0)] {
             assert!((layer(0.3, spread, 0.0).trust(bed) - trust).abs() < 1e-6, "{spread}");
         }
@@ -297,7 +300,7 @@ mod tests {
         let (value, first) = (0.3, [0.2, -0.1, 0.4]);
         let [f, ..] = sums.value_and_gradient(value, first).unwrap();
         let [a, b, c, d] = sums.weights().unwrap();
-        // 1e-12: rounding of two eliminations.
+        // Limit 1e-12: rounding errors of two solutions.
         assert!((a * value + b * first[0] + c * first[1] + d * first[2] - f).abs() < 1e-12);
     }
 

@@ -9,16 +9,17 @@
 // rho - rho0 of the boundary [kg/m3].
 @group(0) @binding(7) var<storage, read_write> density: array<f32>;
 
-// Sums over the water particles around a ghost node, with lengths in h and g = -G h^2; f is rho - rho0 [kg/m3].
+// Sums over the water particles around a ghost node. W is the kernel, grad W = G r, g = -G h^2, V the volume of a
+// particle, (x, y, z) the vector from the node to the particle in units of h, and f = rho - rho0 [kg/m3].
 struct NodeSums {
-    // W V (x, y, z, 1).
+    // Sum of W V (x, y, z, 1).
     value: vec4<f32>,
-    // W V f.
+    // Sum of W V f.
     value_f: f32,
-    // g V (x, y, z), g V f (x, y, z).
+    // Sums of g V (x, y, z) and of g V f (x, y, z).
     first: vec3<f32>,
     first_f: vec3<f32>,
-    // g V (xx, yy, zz), g V (xy, xz, yz).
+    // Sums of g V (xx, yy, zz) and of g V (xy, xz, yz).
     squares: vec3<f32>,
     products: vec3<f32>,
 }
@@ -65,8 +66,8 @@ fn sum_around_node(node: vec4<f32>) -> NodeSums {
     return sums;
 }
 
-// Returns the trust in the fitted gradient (0 to 1). It depends on the centroid of the water and on the spread of the
-// water along the wall normal.
+// Returns the trust in the fitted gradient (0 to 1), from the centroid of the water around the node and the spread of
+// this water along the wall normal. `surface` is the vector from the boundary particle to its surface [m].
 fn trust_in(sums: NodeSums, surface: vec3<f32>) -> f32 {
     let far = length(surface);
     var normal = vec3<f32>(0.0);
@@ -86,10 +87,11 @@ fn trust_in(sums: NodeSums, surface: vec3<f32>) -> f32 {
         * clamp((spread - layers.x) / (layers.y - layers.x), 0.0, 1.0);
 }
 
-// Returns the fitted rho - rho0 at the vector `back` [h] from the node, or `mean` if the equations are ill-conditioned.
+// Returns the fitted rho - rho0 at the boundary particle, or `mean` if the equations are ill-conditioned. `back` is the
+// vector from the node to the boundary particle [h].
 fn fitted(sums: NodeSums, back: vec3<f32>, mean: f32) -> f32 {
     var s = sums.squares;
-    // In a two-dimensional flume s.y is zero; use the value of a full neighbourhood instead.
+    // In a two-dimensional flume, sum g V yy is zero; use the value of a full neighbourhood instead.
     s.y = select(s.y, sums.value.w, s.y == 0.0);
     let p = sums.products;
     var rows = array<vec4<f32>, 4>(

@@ -11,19 +11,19 @@ use crate::sph::parameters::Parameters;
 pub struct Pair<L> {
     /// Vector from the node to the particle [m].
     pub r: [L; 3],
-    /// W V, the kernel times the volume of the particle, without the constant factor of W.
+    /// W V: kernel times volume of the particle, without the constant factor of W.
     pub wv: L,
-    /// G V, with grad W = G r, without the constant factor of G.
+    /// G V, where grad W = G r, without the constant factor of G.
     pub gv: L,
 }
 
-/// `N` sums over the water particles around a ghost node. Their terms may use `G` numbers that are known for each node.
+/// `N` sums over the water particles around a ghost node. The terms can use `G` numbers per node that the caller gives.
 pub trait NodeTerms<const N: usize, const G: usize>: Copy + Default + Send {
     /// Adds the contribution of the water particle `b` to the sums, without constant factors.
     fn add<L: Lanes>(sums: &mut [L; N], node: &[L; G], pair: &Pair<L>, b: &Record);
 
-    /// Returns the constant factors of the sums. `w` and `g` are the constant factors of W and -G h^2; `h` [m] is the
-    /// unit of all lengths in the sums.
+    /// Returns the constant factors of the sums. `w` and `g` are the constant factors of W and -G h^2. The results have
+    /// lengths in units of `h` [m].
     fn factors(w: f32, g: f32, h: f32) -> [f32; N];
 
     /// Creates the result from the sums, which are in the order of [`NodeTerms::add`].
@@ -31,8 +31,8 @@ pub trait NodeTerms<const N: usize, const G: usize>: Copy + Default + Send {
 }
 
 /// Computes the sums of all nodes. `nodes` are split positions (see
-/// [`split_position`](crate::sph::neighbours::records::split_position)); `known` has the known numbers of each node;
-/// `lists` has the neighbours of each node as indices in `records`. `bin_x` is the length of a bin along x [m].
+/// [`split_position`](crate::sph::neighbours::records::split_position)); `known` has the `G` given numbers of each
+/// node; `lists` has the neighbours of each node as indices in `records`. `bin_x` is the length of a bin along x [m].
 pub fn sum_around_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
     parameters: &Parameters,
     bin_x: f32,

@@ -1,15 +1,15 @@
-// Collects the water particles near surfaces for the host (near.rs), which knows the exact shapes and changes the
-// velocities.
+// Collects the water particles near surfaces for the host (near.rs). The host knows the exact shapes and corrects the
+// velocities of these particles.
 
-// Number of shapes of each kind, in the order of the kinds in `shapes`, and dimensions of the surfaces.
+// Number of shapes of each kind, in the same order as in the array `shapes`, and dimensions of the surfaces.
 struct Surfaces {
-    // Segments of the outline; `shapes` has x and z of both ends [m].
+    // Number of segments of the outline of bed and walls; `shapes` has x and z of both ends [m].
     segments: u32,
-    // Obstacles; `shapes` has the low and the high corner [m].
+    // Number of obstacles; `shapes` has the low and the high corner [m].
     obstacles: u32,
-    // Spheres around the units' parts; `shapes` has the centre, and the radius including min_distance [m].
+    // Number of spheres around parts of units; `shapes` has centre and radius [m]. The radius includes min_distance.
     spheres: u32,
-    // Rows of the wavemaker; `shapes` has the displacement along x [m].
+    // Number of rows of the wavemaker; `shapes` has the displacement along x [m].
     rows: u32,
     // Distance from a surface below which a particle is near the surface, with an allowance for rounding [m].
     min_distance: f32,
@@ -17,7 +17,7 @@ struct Surfaces {
     place: f32,
     lowest: f32,
     dp: f32,
-    // Width between side walls; negative if there are none [m].
+    // Distance between the side walls [m]; negative if there are no side walls.
     sides: f32,
     // y of the first side wall [m].
     low_side: f32,
@@ -26,7 +26,7 @@ struct Surfaces {
 }
 
 struct Near {
-    // Cell, and index in the water arrays.
+    // Bin indices along x, y and z, and index of the particle in the water arrays.
     cell: vec4<i32>,
     offset: vec4<f32>,
     motion: vec4<f32>,
@@ -36,13 +36,13 @@ struct Near {
 @group(0) @binding(2) var<storage, read> offset: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> cell: array<vec4<i32>>;
 @group(0) @binding(4) var<storage, read_write> motion: array<vec4<f32>>;
-// Relative to the low corner of the grid [m].
+// Dimensions and positions of the surfaces; positions are relative to the low corner of the grid [m].
 @group(0) @binding(5) var<storage, read> shapes: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> near: array<Near>;
-// The last value counts the particles near surfaces; for the other values see step.wgsl.
+// The last value is the number of particles near surfaces; step.wgsl explains the other values.
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>, 5>;
-// Bit pattern of a velocity, and index of the particle. They are integers, because a small index would be lost as the
-// bit pattern of an f32.
+// Bit patterns of the three velocity components, and index of the particle. The type is an integer, because a card can
+// set an f32 to zero if its bit pattern is a small index.
 @group(0) @binding(8) var<storage, read> changes: array<vec4<u32>>;
 
 // Returns true if a point (x, z) is nearer to the outline than min_distance, or behind the outline.
@@ -55,7 +55,7 @@ fn is_near_outline(at: vec2<f32>) -> bool {
         let from_start = at - piece.xy;
         let t = clamp(dot(from_start, along) / dot(along, along), 0.0, 1.0);
         let away = length(from_start - t * along);
-        // If two segments meet in the nearest corner, a point behind one of the segments is behind the outline.
+        // If the nearest point of the outline is a corner, a point behind one of the two segments counts as behind.
         if away < least + 1e-6 {
             let is_behind = dot(from_start, vec2<f32>(-along.y, along.x)) < 0.0;
             behind = is_behind || (behind && away > least - 1e-6);

@@ -1,15 +1,17 @@
 //! Cell list: rectangular bins, and the stable counting sort of particles into these bins.
 //!
-//! A bin is dp long, and 2dp wide and high. The bins of one row follow each other in x. Therefore eight consecutive
-//! particles of a row form a compact cluster for the SIMD lanes.
+//! A bin is dp long in x, and 2 dp wide and high. A bin that is full of water contains four particles. The bins of a
+//! row follow each other in x. Therefore eight consecutive particles of a row form a compact cluster for the SIMD
+//! lanes.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Number of points per chunk.
+/// Number of points in a chunk, which is one task of the thread pool.
 const CHUNK: usize = 4096;
 
-/// Number of bin ranges per thread. More than one range balances the load, because bins above the water are empty.
+/// Number of ranges of bins per thread. More than one range per thread balances the load, because some ranges lie above
+/// the water and are empty.
 const RANGES_PER_THREAD: usize = 4;
 
 /// Rectangular bins over the particle domain. Particles outside the domain belong to the nearest bin.
@@ -50,20 +52,21 @@ impl Grid {
         self.count[0] * self.count[1] * self.count[2]
     }
 
-    /// Returns the index along one axis of the bin at the coordinate `value` [m], or of the nearest bin outside the
-    /// grid.
+    /// Returns the index along one axis of the bin that contains the coordinate `value` [m]. If `value` is outside the
+    /// grid, the function returns the nearest bin.
     pub fn along(&self, axis: usize, value: f64) -> usize {
         // The cast gives 0, the first bin, for a value below the grid and for NaN.
         (((value - self.low[axis]) * self.per_size[axis]) as usize).min(self.count[axis] - 1)
     }
 
-    /// Returns the point; in a periodic domain, its periodic image inside the domain.
+    /// Returns the point itself, or, in a periodic domain, its periodic image between the sides of the domain.
     pub fn wrap(&self, point: DVec3) -> DVec3 {
         let Some(width) = self.periodic_width else { return point };
         DVec3 { y: point.y - width * ((point.y - self.low.y) / width).floor(), ..point }
     }
 
-    /// Returns the index of the bin that contains the point; in a periodic domain the point must be wrapped.
+    /// Returns the index of the bin that contains the point. In a periodic domain, call [`Self::wrap`] on the point
+    /// first.
     pub fn bin(&self, point: DVec3) -> u32 {
         let [nx, ny, _] = self.count;
         let row = self.along(2, point.z) * ny + self.along(1, point.y);
@@ -74,9 +77,9 @@ impl Grid {
 /// Points sorted into bins.
 #[derive(Debug, Default)]
 pub struct Bins {
-    /// Index in `order` where each bin starts, followed by the number of points.
+    /// Index in `order` where each bin starts. The last entry is the number of points.
     pub start: Vec<u32>,
-    /// Point indices sorted by bin; points of one bin keep their order.
+    /// Indices of the points, sorted by bin; the points of one bin keep their order.
     pub order: Vec<u32>,
     /// Bin of each entry of `order`.
     pub bin_at: Vec<u32>,
@@ -95,9 +98,9 @@ impl Bins {
 
     /// Sorts the points stably into the bins of `grid`.
     ///
-    /// Each task fills a range of bins and scans only the chunks with points in this range. Such chunks are few,
-    /// because the points are still nearly sorted from the previous time step. The order does not depend on the number
-    /// of tasks.
+    /// Each task fills a range of bins and reads only the chunks of points whose bins overlap this range. Such chunks
+    /// are few, because the points are still nearly sorted from the previous time step. The result does not depend on
+    /// the number of tasks.
     pub fn sort(&mut self, grid: &Grid, points: &[DVec3]) {
         self.bin_of.resize(points.len(), 0);
         self.order.resize(points.len(), 0);
@@ -115,8 +118,8 @@ impl Bins {
         let chunks = Chunks { bin_of: &self.bin_of, extents: &self.extents };
         let ranges = RANGES_PER_THREAD * rayon::current_num_threads();
         let span = grid.bins().div_ceil(ranges);
-        // start[b + 1] is first the number of points in bin b, then the index for the next point of bin b, and finally
-        // the end of bin b.
+        // start[b + 1] changes its meaning: first it is the number of points in bin b, then the index in `order` for
+        // the next point of bin b, and finally the end of bin b.
         let (first, cursors) = self.start.split_first_mut().expect("a grid has a bin");
         *first = 0;
         cursors.par_chunks_mut(span).enumerate().for_each(|(range, counts)| {
@@ -140,7 +143,7 @@ struct Chunks<'a> {
 }
 
 impl Chunks<'_> {
-    /// Calls `f` with the index and the bin of each point in a range of bins.
+    /// Calls `f` for each point in a range of bins, with the index and the bin of the point.
     fn for_each_in(self, bins: std::ops::Range<usize>, mut f: impl FnMut(u32, u32)) {
         for (chunk, (members, [lowest, highest])) in self.bin_of.chunks(CHUNK).zip(self.extents).enumerate() {
             if bins.start > *highest as usize || bins.end <= *lowest as usize {
@@ -154,9 +157,10 @@ impl Chunks<'_> {
         }
     }
 
-    /// Writes the points of the bins from `first_bin` on to `order`, and their bins to `bin_at`. `cursors` has the next
-    /// sorted index for each of these bins. Entry 0 of `order` and `bin_at` has the sorted index `begin`. A task fills
-    /// at most `span` bins.
+    /// Writes the points of several bins to `order`, and the bin of each point to `bin_at`. The bins start at
+    /// `first_bin`; `cursors` has one entry per bin, the sorted index of its next point. Entry 0 of `order` and
+    /// `bin_at` has the sorted index `begin`. If there are more than `span` bins, the function divides them between two
+    /// tasks.
     fn place(
         self,
         span: usize,
@@ -193,7 +197,7 @@ impl Chunks<'_> {
 mod tests {
     use super::*;
 
-    /// Number of points, more than two chunks.
+    /// Number of points; they fill more than two chunks.
     const COUNT: u32 = 9000;
 
     #[test]

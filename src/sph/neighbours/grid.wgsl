@@ -1,13 +1,14 @@
-// Stable counting sort of points into bins (grid.rs): count, scan, scatter, then rank each point in its bin.
+// Stable counting sort of points into bins (grid.rs): count the points of each bin, compute where each bin starts
+// (prefix sum), write the points to their bins, then sort the points of each bin by index.
 
 struct Sort {
     points: u32,
     bins: u32,
-    // Number of blocks of SCANNED bins.
+    // Number of blocks into which the bins are divided; a block has SCANNED bins.
     blocks: u32,
 }
 
-// Number of bins that a group of 256 threads scans.
+// Number of bins for which a workgroup of 256 threads computes the prefix sum.
 const SCANNED = 1024u;
 
 @group(0) @binding(1) var<uniform> sort: Sort;
@@ -33,7 +34,7 @@ fn count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) group
     atomicAdd(&counts[bin], 1u);
 }
 
-// Returns the sum of the values of all threads before this thread. Afterwards partial[255] is the sum of all values.
+// Returns the sum of the values of all lower threads of the workgroup. Then partial[255] is the sum of all values.
 fn scan_group(local: u32, value: u32) -> u32 {
     partial[local] = value;
     workgroupBarrier();

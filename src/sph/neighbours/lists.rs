@@ -1,9 +1,9 @@
-//! Clusters of neighbouring particles (one particle per SIMD lane), and the neighbour list of each cluster.
+//! Clusters of adjacent particles (one particle per SIMD lane), and the neighbour list of each cluster.
 //!
 //! The list of a cluster contains all particles near its bounding box. In the lane of a member that is too far from a
 //! listed particle, the kernel is zero. The lists are built once per time step and serve both evaluations of the rates.
-//! Therefore they extend beyond the kernel support by the distance that two particles can approach each other in half a
-//! time step.
+//! Therefore the lists contain particles up to the kernel support plus the distance by which two particles can approach
+//! each other in half a time step.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -18,8 +18,8 @@ const MIN_CHUNK: usize = 4096;
 /// within one chunk.
 pub const CHUNK: usize = 512;
 
-/// Largest number of bins that a cluster spans, per lane. The limit keeps the bounding box small in a sparse row. A bin
-/// that is full of water contains four particles.
+/// Largest number of bins that a cluster spans, divided by the number of lanes. The limit keeps the bounding box of a
+/// cluster small where the bins contain few particles. A bin that is full of water contains four particles.
 const CLUSTER_BINS_PER_LANE: f32 = 0.5;
 
 /// A cluster: consecutive targets, at most as many as there are lanes, that share one neighbour list.
@@ -29,9 +29,10 @@ pub struct Cluster {
     pub first: u32,
     /// Number of targets, at least 1.
     pub len: u32,
-    /// True if neighbours may lie beyond the sides of a periodic flume.
+    /// True if the flume is periodic and neighbours can lie beyond its sides.
     pub crosses_sides: bool,
-    /// End of the cluster's neighbours in the list of the chunk; they start at the end of the previous cluster.
+    /// End of the cluster's neighbours in the list of the chunk; they start where the neighbours of the previous
+    /// cluster end.
     pub list_end: u32,
 }
 
@@ -54,7 +55,7 @@ impl Chunk {
     }
 }
 
-/// Returns `f` of the members of a cluster, one member per lane. Unused lanes repeat the last member.
+/// Evaluates `f` for the members of a cluster, one member per lane. Unused lanes repeat the value of the last member.
 #[inline(always)]
 pub(in crate::sph) fn lanes_of<L: Lanes, T>(cluster: &Cluster, targets: &[T], f: impl Fn(&T) -> f32) -> L {
     let members = &targets[cluster.first as usize..][..cluster.len as usize];
@@ -83,7 +84,8 @@ pub struct SortedPositions {
 }
 
 impl SortedPositions {
-    /// Copies the positions `points`. The arrays are padded, so that a whole SIMD register can be read from any index.
+    /// Copies the positions `points` [m]. Extra entries at the end of the arrays allow reading a whole SIMD register
+    /// from any index.
     pub fn set(&mut self, grid: &Grid, points: &[DVec3]) {
         for (axis, values) in self.axes.iter_mut().enumerate() {
             values.resize(points.len() + MAX_LANES, 0.0);
@@ -111,7 +113,7 @@ pub struct NeighbourLists {
 }
 
 impl NeighbourLists {
-    /// Creates empty lists, for clusters of as many targets as the instruction set has lanes.
+    /// Creates empty lists. Their clusters will have at most as many targets as the instruction set has lanes.
     pub fn new(instructions: InstructionSet) -> Self {
         Self { chunks: Vec::new(), instructions }
     }
@@ -131,7 +133,8 @@ impl NeighbourLists {
         self.chunks.iter().map(|c| c.list.capacity() * 4 + c.clusters.capacity() * size_of::<Cluster>()).sum()
     }
 
-    /// Returns the mean number of pairs computed per target, including idle lanes.
+    /// Returns the mean number of pairs that are computed per target, including pairs in unused lanes and pairs outside
+    /// the kernel support.
     pub fn lanes_per_target(&self) -> f64 {
         let clusters = || self.chunks.iter().flat_map(Chunk::clusters);
         let listed: usize = clusters().map(|(_, list)| list.len()).sum();
@@ -202,7 +205,7 @@ fn cluster_end(grid: &Grid, bin_at: &[u32], first: usize, lanes: usize) -> usize
     (first + 1..limit).find(|&i| !fits(bin_at[i])).unwrap_or(limit)
 }
 
-/// Bounding box of a cluster [m], in f64 to keep precision in a long flume.
+/// Bounding box of a cluster, relative to the low corner of the grid [m]; in f64, for precision in a long flume.
 struct BoundingBox {
     low: DVec3,
     high: DVec3,
@@ -249,8 +252,9 @@ impl BoundingBox {
         from..=grid.along(axis, self.high[axis] + reach + grid.low[axis])
     }
 
-    /// Returns the range of bins along y within `reach` [m] of the box, each at most once. In a periodic flume an index
-    /// can exceed the number of bins along y; the caller must take it modulo this number.
+    /// Returns the range of bins along y within `reach` [m] of the box; each bin occurs at most once. In a periodic
+    /// flume, an index can be larger than the number of bins along y; the caller must take the index modulo this
+    /// number.
     fn rows_across(&self, grid: &Grid, reach: f64) -> std::ops::RangeInclusive<usize> {
         if grid.periodic_width.is_none() {
             return self.bins(grid, 1, reach);
@@ -263,8 +267,8 @@ impl BoundingBox {
         first..=first + more
     }
 
-    /// Returns the distance along an axis between the box and a bin [m]. A bin at an open end of the grid (`first` or
-    /// `last`) extends to infinity.
+    /// Returns the distance along an axis between the box and a bin [m]. If the bin is at an open end of the grid
+    /// (`first` or `last` is true), it extends to infinity, because it also contains particles outside the grid.
     fn gap(&self, grid: &Grid, axis: usize, bin: usize, first: bool, last: bool) -> f64 {
         let size = grid.size[axis];
         let (mut low, mut high) = (bin as f64 * size, (bin + 1) as f64 * size);
@@ -279,14 +283,14 @@ impl BoundingBox {
     }
 }
 
-/// Test for points within reach of a box, in single precision and with one point per lane. The reach includes an
-/// allowance for rounding errors.
+/// Test whether points are within reach of a box, in single precision and with one point per lane. `reach2` is the
+/// square of the reach, which includes an allowance for rounding errors.
 struct Near<L> {
     low: [L; 3],
     high: [L; 3],
     middle_y: L,
     reach2: L,
-    /// Width of a periodic flume [m] and its inverse [1/m], otherwise 0.
+    /// Width of a periodic flume [m] and its inverse [1/m]; both are 0 if the flume is not periodic.
     width: L,
     per_width: L,
 }
@@ -307,8 +311,8 @@ impl<L: Lanes> Near<L> {
         }
     }
 
-    /// Appends the indices of the points within reach. To avoid branches, each write has as many indices as there are
-    /// lanes, with the points within reach first. The next write overwrites the other indices.
+    /// Appends the indices of the points within reach to `list`. To avoid branches, each step writes as many indices as
+    /// there are lanes, with the points within reach first. The next step overwrites the remaining indices.
     #[inline(always)]
     fn append(&self, positions: &SortedPositions, members: std::ops::Range<usize>, offset: u32, list: &mut Vec<u32>) {
         let mut len = list.len();

@@ -1,7 +1,7 @@
-// Bins within reach of a point, row by row (lists.rs).
+// Finds the bins within a distance (`reach`) of a point, row by row (lists.rs). A row of bins extends along x.
 
-// Rows of bins within reach of a point, with indices (across the flume, up). In a periodic flume the indices across can
-// lie outside the grid; `bins_within` takes them modulo the number of rows.
+// First and last row of bins within reach of a point, as indices (along y, along z). In a periodic flume, the index
+// along y can lie outside the grid; `bins_within` takes it modulo the number of bins along y.
 struct Rows {
     first: vec2<i32>,
     last: vec2<i32>,
@@ -22,11 +22,12 @@ fn rows_within(place: vec4<f32>, reach: f32) -> Rows {
     return rows;
 }
 
-// Returns the first and the last bin of a row (across, up) within reach of a point; first > last if there is none.
+// Returns the first and the last bin of a row within reach of a point; first > last if there is no such bin. `row` has
+// the indices of the row along y and z.
 fn bins_within(place: vec4<f32>, reach: f32, row: vec2<i32>) -> vec2<u32> {
     var middle = (vec2<f32>(row) + 0.5 - 0.5 * vec2<f32>(parameters.count.yz)) * parameters.size.yz - place.zw;
     let last = parameters.count.yz - 1;
-    // Bins at the open ends of the grid extend to infinity.
+    // The outermost bins of the grid extend to infinity, because they also contain particles outside the grid.
     if (row.y == 0 && middle.y > 0.0) || (row.y == last.y && middle.y < 0.0) {
         middle.y = 0.0;
     }

@@ -2,9 +2,9 @@
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | [`grid`] | cell list: bins, and sorting of particles into these bins |
+//! | [`grid`] | cell list: rectangular bins, and sorting of particles into these bins |
 //! | [`lists`] | clusters of particles and their neighbour lists |
-//! | [`records`] | data of a particle that its neighbours need |
+//! | [`records`] | packed data of a particle, for the sums of its neighbours |
 
 pub mod grid;
 pub mod lists;

@@ -1,4 +1,4 @@
-//! Packed record of a particle, which the pair loop broadcasts to all lanes.
+//! Packed record of a particle. The pair loop copies the record of a neighbour to all lanes.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ use crate::sph::parameters::Parameters;
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct Record {
-    /// Index of the bin along x, a whole number.
+    /// Index of the bin along x, an integer stored as f32.
     pub bin_x: f32,
     /// Offset along x from the low end of the bin [m].
     pub x: f32,
@@ -30,8 +30,8 @@ pub struct Record {
     pub pressure: f32,
     /// Speed of sound [m/s].
     pub sound_speed: f32,
-    /// Volume of the particle in density diffusion [m3]. Zero for boundary particles under DBC, because their density
-    /// is not the density of the water.
+    /// Volume of the particle in the density diffusion [m3]. It is zero for boundary particles under DBC, because their
+    /// density is not the density of the water.
     pub diffusive_volume: f32,
 }
 
@@ -48,8 +48,8 @@ pub fn split_position(grid: &Grid, point: DVec3) -> [f32; 4] {
     ]
 }
 
-/// Returns the record of a particle from its double-precision state. `diffuses` is true if
-/// the particle takes part in density diffusion.
+/// Returns the record of a particle from its double-precision state. `diffuses` is true if the particle takes part in
+/// the density diffusion.
 pub fn record(
     grid: &Grid,
     parameters: &Parameters,

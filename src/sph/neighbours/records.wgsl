@@ -11,7 +11,8 @@
 // rho - rho0 of the boundary [kg/m3].
 @group(0) @binding(9) var<storage, read> boundary_density: array<f32>;
 
-// Pressure (equation 6) and speed of sound are evaluated as binomial series, which keep their precision near rho0.
+// Returns the record of a particle. Pressure (equation 6) and speed of sound are computed as binomial series in
+// (rho - rho0) / rho0, because these series stay precise near rho0.
 fn record(cell: vec3<i32>, offset: vec4<f32>, motion: vec4<f32>, kind: f32) -> Record {
     let e = offset.w / parameters.rho0;
     let p = parameters.pressure;

@@ -1,10 +1,11 @@
 //! Pressure on units in gaps too narrow for water particles.
 //!
 //! No water particle fits between the bed and the foot of a unit. The pressure of water particles alone would act on
-//! the foot only from above, and would press the unit down with several times its weight. Real water fills such a gap,
-//! and the pressure is continuous through the gap. Therefore bed, walls and other units act on a unit through the
-//! pressure term of equation 1. Their densities come from the nearby water (see [`mdbc`](crate::sph::boundary::mdbc)).
-//! They exert no viscous force on a unit, because the contact law provides the friction.
+//! the foot only from above, and would press the unit down with several times its weight. In reality, water fills such
+//! a gap, and the pressure in the gap acts on the foot from below. Therefore bed, walls and other units act on a unit
+//! through the pressure term of equation 1. Their densities come from the nearby water (see
+//! [`mdbc`](crate::sph::boundary::mdbc)). They exert no viscous force on a unit, because the contact law provides the
+//! friction.
 
 use rayon::prelude::*;
 
@@ -17,7 +18,8 @@ impl PairLoop {
     /// Adds the pressure of bed, walls and other units across gaps to the accelerations of the unit particles. The
     /// arguments are as in [`Self::rates`].
     ///
-    /// The lists also contain the particles of the same unit, but the forces between these particles cancel.
+    /// The lists also contain the particles of the same unit. The forces between these particles cancel in the sum over
+    /// the unit.
     pub fn add_gap_pressure(
         &self,
         lists: &NeighbourLists,

@@ -1,9 +1,10 @@
-//! Gradients of density and velocity, and measures of the particle distribution. With r_ba = r_b - r_a:
+//! Gradients of density and velocity at the targets a, and measures of the particle distribution around them. With
+//! r_ba = r_b - r_a and the tensor product (x), the code computes:
 //!
 //!   M      = sum_b V_b r_ba (x) grad_a W_ab,              the identity in a full, uniform neighbourhood
 //!   grad f = M^-1 sum_b V_b (f_b - f_a) grad_a W_ab,      exact for linear fields
 //!   grad C = sum_b V_b grad_a W_ab,                       zero in a uniform neighbourhood
-//!   div r  = tr M.
+//!   div r  = tr M,                                        the number of dimensions in a full neighbourhood.
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -16,25 +17,25 @@ use crate::sph::parameters::Parameters;
 use crate::sph::terms::density_diffusion::DensityDiffusion;
 use crate::sph::terms::viscosity::Viscosity;
 
-/// Smallest determinant of M for which M is inverted [-]. A quarter of a neighbourhood has this determinant.
+/// Smallest determinant of M for which M is inverted [-]. In a block of water with the default smoothing length, det M
+/// is 1 inside, 0.23 for the outermost particles of a face, and 0.045 for the particles along a straight edge.
 const MIN_DETERMINANT: f64 = 0.05;
 
-/// Data of a particle that its neighbours need in addition to its record. Boundary particles have no gradient and
-/// stress.
+/// Data of a particle that its neighbours need in addition to its record. For boundary particles, gradient and stress
+/// are zero.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct NeighbourData {
     /// Renormalised gradient of the density [kg/m4].
     pub density_gradient: [f32; 3],
-    /// Share of the target's gradient that replaces the gradient of this particle: 1 for boundary particles, 0 for
-    /// water.
+    /// 1 if the gradient of the target replaces the gradient of this particle (boundary particles), 0 if not (water).
     pub uses_target_gradient: f32,
     /// Sub-particle-scale stress tau / rho^2: xx, yy, zz, xy, xz, yz [m5/(kg s2)].
     pub stress: [f32; 6],
 }
 
 impl NeighbourData {
-    /// Value for a boundary particle.
+    /// The data of a boundary particle.
     pub(super) const OF_BOUNDARY: Self =
         Self { density_gradient: [0.0; 3], uses_target_gradient: 1.0, stress: [0.0; 6] };
 }
@@ -52,20 +53,20 @@ pub struct Order {
 #[derive(Debug, Default)]
 pub struct Gradients {
     sums: Vec<Sums>,
-    /// One entry per record; empty if the scheme does not need these data.
+    /// Additional data, one entry per record; empty if the scheme does not need these data.
     neighbour_data: Vec<NeighbourData>,
 }
 
 /// Sums over the neighbours of one target.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
-    /// M: xx, yy, zz, xy, xz, yz.
+    /// Components of M: xx, yy, zz, xy, xz, yz [-].
     moments: [f32; 6],
     /// grad C [1/m].
     concentration: [f32; 3],
-    /// sum V (rho_b - rho_a) grad W [kg/m4].
+    /// sum_b V_b (rho_b - rho_a) grad_a W_ab [kg/m4].
     density: [f32; 3],
-    /// sum V (v_b - v_a)_i (grad W)_j [1/s].
+    /// sum_b V_b (v_b - v_a)_i (grad_a W_ab)_j, with the component i of the velocity and j of the gradient [1/s].
     velocity: [[f32; 3]; 3],
 }
 
@@ -120,7 +121,8 @@ impl Gradients {
 }
 
 impl Sums {
-    /// Returns M^-1, or the identity if the determinant of M is too small because the neighbours lie on one side.
+    /// Returns the inverse of the renormalisation matrix M, or the identity if det M <= [`MIN_DETERMINANT`]: the
+    /// particle has too few neighbours, or they lie nearly in one plane.
     fn renormalisation(&self) -> DMat3 {
         let [xx, yy, zz, xy, xz, yz] = self.moments.map(f64::from);
         // In a two-dimensional flume all neighbours lie in one plane, and fields do not vary normal to this plane.
@@ -197,10 +199,10 @@ impl ChunkSums<'_> {
             let b = &self.records[j as usize];
             let [x, y, z] = self.pairs.difference::<L, PERIODIC>(a, b);
             let closeness = kernel.closeness(x.mul_add(x, y.mul_add(y, z * z)).sqrt());
-            // The constant factor of G is applied once, after the loop.
+            // grad_a W_ab = G r_ab. The constant factor of G is applied after the loop.
             let gv = kernel.gradient_shape(closeness) * splat(b.volume);
             let (gx, gy, gz) = (gv * x, gv * y, gv * z);
-            // Minus because r_ba = -r_ab.
+            // The sign is minus, because M contains r_ba = -r_ab, and x, y, z are the components of r_ab.
             let of_moments = [(gx, x), (gy, y), (gz, z), (gx, y), (gx, z), (gy, z)];
             for (sum, (g, r)) in sums[..6].iter_mut().zip(of_moments) {
                 *sum = *sum - g * r;

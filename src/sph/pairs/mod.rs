@@ -2,10 +2,10 @@
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | [`pair_loop`] | constants of a loop over pairs, distance between two particles |
+//! | [`pair_loop`] | constants of the loop over pairs, distance between two particles |
 //! | [`rate`] | result of the loop: acceleration and density rate of a particle |
 //! | [`rates`] | right-hand sides of equations 1 and 2 for all targets |
-//! | `pair_sums` | terms of a pair, added for all members of a cluster at once |
+//! | `pair_sums` | sums over the neighbours of a cluster, computed for all its members at once |
 //! | [`gradients`] | gradients of density and velocity, measures of the particle distribution |
 //! | `gap_pressure` | pressure on units through gaps without water particles |
 

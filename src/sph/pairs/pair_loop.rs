@@ -1,4 +1,4 @@
-//! Constants of a loop over pairs, and the distance between the particles of a pair.
+//! Constants of the loop over pairs of particles, and the distance between the particles of a pair.
 
 use rayon::prelude::*;
 
@@ -17,19 +17,19 @@ pub struct PairLoop {
 }
 
 impl PairLoop {
-    /// Creates a loop over pairs in bins of length `bin_x` [m].
+    /// Creates the constants for bins of length `bin_x` along x [m].
     pub fn new(parameters: Parameters, bin_x: f64) -> Self {
         let width = parameters.periodic_width.unwrap_or(0.0) as f32;
         Self { parameters, bin_x: bin_x as f32, width }
     }
 
-    /// Returns the same loop with other parameters.
+    /// Returns the same constants with other parameters of the scheme.
     pub(in crate::sph) fn with_parameters(self, parameters: Parameters) -> Self {
         Self { parameters, ..self }
     }
 
-    /// Counts the pairs of target and neighbour that are within the kernel support. The targets are the first
-    /// `records`.
+    /// Counts the pairs of a target and a neighbour whose distance is smaller than the kernel support. The targets are
+    /// the first entries of `records`.
     pub fn count_within_support(&self, lists: &NeighbourLists, records: &[Record]) -> u64 {
         let count_chunk = |(number, chunk): (usize, &Chunk)| {
             let count_cluster = |(cluster, neighbours): (&Cluster, &[u32])| {
@@ -52,8 +52,8 @@ impl PairLoop {
         fields.map(|f| lanes_of(cluster, targets, f))
     }
 
-    /// Returns r_ab [m] from a neighbour b to each member a of a cluster; if `PERIODIC`, from the nearest periodic
-    /// image of b.
+    /// Returns the vector r_ab [m] from a neighbour b to each member a of a cluster. If `PERIODIC` is true, the vector
+    /// starts at the nearest periodic image of b.
     #[inline(always)]
     pub(super) fn difference<L: Lanes, const PERIODIC: bool>(&self, a: [L; 4], b: &Record) -> [L; 3] {
         let splat = L::splat;
@@ -65,7 +65,8 @@ impl PairLoop {
         [x, y, a[3] - splat(b.z)]
     }
 
-    /// Returns the vector from b to a and its length [m]; in a periodic flume, from the nearest periodic image of b.
+    /// Returns the vector from b to a and its length [m]. In a periodic flume, the vector starts at the nearest
+    /// periodic image of b.
     pub(super) fn distance(&self, a: &Record, b: &Record) -> ([f64; 3], f64) {
         let difference = |a: f32, b: f32| f64::from(a) - f64::from(b);
         let mut r = [

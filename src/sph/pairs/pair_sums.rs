@@ -11,19 +11,19 @@ use crate::sph::terms::kernel::Wendland;
 use crate::sph::terms::momentum::pair_stress;
 use crate::sph::terms::viscosity::{Viscosity, approach_rate, laminar_factor, monaghan_gingold_stress, viscous_stress};
 
-/// Viscosity model; the pair loop is compiled once per model.
+/// Viscosity model. The pair loop is compiled once for each model.
 pub(super) trait Resistance {
     /// True if the model includes a sub-particle-scale stress.
     const TURBULENT: bool = false;
 
-    /// Returns rho_a rho_b Pi_ab [Pa], for a viscous force along the line between the particles.
+    /// Returns rho_a rho_b Pi_ab [Pa], if the viscous force acts along the line between the particles; zero if not.
     #[inline(always)]
     fn stress<L: Lanes>(_: &Constants, _approach: L, _a: &Members<L>, _b: &Record, _rho_b: L) -> L {
         L::splat(0.0)
     }
 
-    /// Returns the factor of v_ab [Pa s], for a viscous force along the velocity difference, if the model has such a
-    /// force.
+    /// Returns the factor of v_ab [Pa s] (see [`laminar_factor`]), if the viscous force acts along the velocity
+    /// difference v_ab; `None` if not.
     #[inline(always)]
     fn shear<L: Lanes>(_: &Constants, _rho_a: L, _rho_b: L) -> Option<L> {
         None
@@ -81,18 +81,19 @@ pub(super) struct Constants {
     rho0: f32,
     /// alpha of the artificial viscosity [-].
     alpha: f32,
-    /// nu of the laminar viscosity, or K nu of Monaghan & Gingold's form [m2/s].
+    /// Kinematic viscosity nu of the laminar viscosity; in Monaghan & Gingold's form K nu with K = 2 (D + 2) in D
+    /// dimensions [m2/s].
     nu: f32,
 }
 
-/// Members of a cluster: the targets "a" of the equations.
+/// State of the members of a cluster, which are the particles "a" of the equations.
 pub(super) struct Members<L> {
     velocity: [L; 3],
     excess_density: L,
     density: L,
     pressure: L,
     sound_speed: L,
-    /// 1 for members on which density diffusion acts, otherwise 0.
+    /// 1 for members on which the density diffusion acts, 0 for other members.
     pub(super) diffuses: L,
     density_gradient: [L; 3],
     stress: [L; 6],
@@ -110,10 +111,10 @@ pub(super) struct Near<L> {
 
 /// Sums over the neighbours of each member, without constant factors. [`Sums::rates`] applies these factors.
 pub(super) struct Sums<L> {
-    /// Force along the lines between the particles.
+    /// Pressure force, and viscous force along the lines between the particles.
     force: [L; 3],
-    /// Laminar and turbulent force. It is small compared with the pressure force and would lose precision in the same
-    /// sum.
+    /// Laminar force along v_ab, and turbulent force. They are small compared with the pressure force and would lose
+    /// precision in the same sum.
     shear: [L; 3],
     compression: L,
     diffusion: L,
@@ -132,7 +133,7 @@ impl Constants {
         Self { kernel, diffusion, h, rho0, alpha: alpha as f32, nu: nu as f32 }
     }
 
-    /// Returns the relative position of a neighbour at r_ab [m].
+    /// Returns the relative position of a neighbour from r_ab [m].
     #[inline(always)]
     pub(super) fn near<L: Lanes>(&self, r: [L; 3]) -> Near<L> {
         let r2 = r[0].mul_add(r[0], r[1].mul_add(r[1], r[2] * r[2]));
@@ -141,7 +142,8 @@ impl Constants {
 }
 
 impl<L: Lanes> Members<L> {
-    /// Creates the members of `cluster` from the `targets` and, for schemes that need it, from their `data`.
+    /// Creates the members of `cluster` from the records `targets` and, if the scheme needs them, from the additional
+    /// `data` of the targets.
     #[inline(always)]
     pub(super) fn new<R: Resistance, const ANTUONO: bool>(
         constants: &Constants,
@@ -221,7 +223,7 @@ impl<L: Lanes> Sums<L> {
         self.diffusion = (g * splat(b.diffusive_volume)).mul_add(excess, self.diffusion);
     }
 
-    /// Adds the sums over other neighbours.
+    /// Adds the sums over other neighbours of the same members.
     #[inline(always)]
     pub(super) fn add_sums(&mut self, other: &Self) {
         for k in 0..3 {
@@ -251,8 +253,8 @@ impl<L: Lanes> Sums<L> {
     }
 }
 
-/// Returns (grad rho_a + grad rho_b) . r_ab / 2 [kg/m3]. Added to rho_b - rho_a, it removes the part of the difference
-/// that the gradients explain (Antuono et al. 2010).
+/// Returns (grad rho_a + grad rho_b) . r_ab / 2 [kg/m3]. The sum of rho_b - rho_a and this value is the part of the
+/// density difference that the gradients do not explain (Antuono et al. 2010).
 #[inline(always)]
 fn explained_by_gradients<L: Lanes>(a: &Members<L>, near: &Near<L>, b: &NeighbourData) -> L {
     let share = L::splat(0.5 * (1.0 + b.uses_target_gradient));

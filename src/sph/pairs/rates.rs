@@ -14,12 +14,12 @@ use crate::sph::parameters::BoundaryCondition;
 use crate::sph::terms::density_diffusion::DensityDiffusion;
 use crate::sph::terms::viscosity::Viscosity;
 
-/// Number of neighbours per partial sum; partial sums reduce rounding errors.
+/// Number of neighbours in each partial sum. Partial sums reduce rounding errors.
 const BLOCK: usize = 32;
 
 impl PairLoop {
-    /// Computes the rates of the targets, which are consecutive `records` from `first_target` on. `data` has one entry
-    /// per record; it is empty if the scheme needs no such data.
+    /// Computes the rates of the targets, which are consecutive `records` from the index `first_target` on. `data` has
+    /// one entry per record; it is empty if the scheme needs no data in addition to the records.
     pub fn rates(
         &self,
         lists: &NeighbourLists,
@@ -86,7 +86,8 @@ impl ChunkRates<'_> {
         }
     }
 
-    /// Returns the rates of a cluster. Partial sums over blocks have a third of the rounding error of one long sum.
+    /// Returns the rates of the members of a cluster. Partial sums over blocks of neighbours have a third of the
+    /// rounding error of a single sum over all neighbours.
     #[inline(always)]
     fn cluster_rates<L: Lanes, R: Resistance, const ANTUONO: bool, const PERIODIC: bool>(
         &self,
@@ -120,8 +121,8 @@ impl ChunkRates<'_> {
         sums.rates(constants, &a)
     }
 
-    /// Returns the factor of density diffusion under DBC for each member: 0 for a boundary particle and for water with
-    /// a boundary particle within its support, 1 for other water.
+    /// Returns the factor of the density diffusion under DBC for each member: 0 for a boundary particle, 0 for a water
+    /// particle with a boundary particle within its kernel support, 1 for other water particles.
     #[inline(always)]
     fn diffusion_factors<L: Lanes, const PERIODIC: bool>(
         &self,

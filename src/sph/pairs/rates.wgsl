@@ -1,17 +1,18 @@
-// Right-hand sides of equations 1 and 2 (rates.rs, pair_sums.rs) for water and units, and limits of the time step.
+// Computes the right-hand sides of equations 1 and 2 (rates.rs, pair_sums.rs) for water and units, and the largest
+// acceleration and signal speed, which limit the time step.
 
 @group(0) @binding(1) var<uniform> step: Step;
 @group(0) @binding(2) var<storage, read> records: array<Record>;
 @group(0) @binding(3) var<storage, read> water_start: array<u32>;
 @group(0) @binding(4) var<storage, read> boundary_start: array<u32>;
 @group(0) @binding(5) var<storage, read> boundary_order: array<u32>;
-// Acceleration without gravity [m/s2] and d rho / dt [kg/(m3 s)] of the water, then of the boundary particles in
-// unsorted order.
+// Acceleration without gravity [m/s2] and d rho / dt [kg/(m3 s)]: first of the water particles, then of the boundary
+// particles in unsorted order.
 @group(0) @binding(6) var<storage, read_write> rates: array<vec4<f32>>;
 // Bit patterns of the largest |dv/dt| [m/s2] and of the largest c + |mu| [m/s] of the water.
 @group(0) @binding(7) var<storage, read_write> limits: array<atomic<u32>, 2>;
 
-// Sums over neighbours without constant factors.
+// Sums over the neighbours of a particle, without constant factors.
 struct Sums {
     force: vec3<f32>,
     compression: f32,
@@ -26,7 +27,7 @@ fn pair(sums: ptr<function, Sums>, a: Record, b: Record, r: vec3<f32>, r2: f32, 
     let v_dot_r = dot(a.motion.xyz - b.motion.xyz, r);
     let rho_a = parameters.rho0 + a.state.x;
     let rho_b = parameters.rho0 + b.state.x;
-    // Equation 3.
+    // Artificial viscosity, equation 3.
     let approach = v_dot_r / (r2 + 0.01 * parameters.h * parameters.h);
     var viscous = (a.state.z + b.state.z) * (rho_a + rho_b) * (-0.25 * parameters.alpha * parameters.h * min(approach, 0.0));
     if a.state.w == UNIT && b.state.w != WATER {
@@ -34,7 +35,7 @@ fn pair(sums: ptr<function, Sums>, a: Record, b: Record, r: vec3<f32>, r2: f32, 
     }
     (*sums).force += ((a.state.y + b.state.y + viscous) * gv) * r;
     (*sums).compression += rho_b * gv * v_dot_r;
-    // Equations 4 and 5.
+    // Density diffusion, equations 4 and 5.
     let slope = parameters.hydrostatic * parameters.curvature * r.z - parameters.hydrostatic;
     (*sums).diffusion += gv * (b.state.x - a.state.x + slope * r.z);
     (*sums).fastest = max((*sums).fastest, abs(approach));
@@ -77,8 +78,8 @@ fn sum_over_neighbours(a: Record) -> Sums {
 var<workgroup> largest_acceleration: array<u32, 64>;
 var<workgroup> largest_signal: array<u32, 64>;
 
-// Reduces both limits to their maxima by comparing the bit patterns of non-negative numbers. The bit pattern of NaN is
-// larger than the bit pattern of any number.
+// Computes the maximum of each limit over all threads from bit patterns, because atomic operations need integers. The
+// bit patterns of non-negative numbers have the same order as the numbers; the bit pattern of NaN is larger still.
 fn reduce_limits(local: u32, acceleration: u32, signal: u32) {
     largest_acceleration[local] = acceleration;
     largest_signal[local] = signal;

@@ -1,17 +1,18 @@
 //! Layers of boundary particles behind bed and walls, with their vectors to the surface.
 //!
-//! The wetted outline of the flume (end wall, bed and mound, end wall) is a polyline in x and z. Layer k consists of
-//! points at the distance (k + 1/2) dp behind this outline, on parallels to its straight segments. Under a crest, a
-//! parallel ends where another segment is nearer. Behind a concave corner, an arc joins two parallels. Parallels and
-//! arcs are divided evenly, so that the particle volumes fill the layers exactly. Every particle stores the exact
-//! vector to the outline. Behind a corner, this vector points to the corner (English et al. 2022).
+//! The wetted outline of the flume (end wall, bed and mound, end wall) is a polyline in x and z. Layer k = 0, 1, 2
+//! consists of points at the distance (k + 1/2) dp behind this outline, on lines parallel to its segments
+//! ("parallels"). Under a crest, a parallel ends where another segment is nearer; the remaining part is called a
+//! stretch. Behind a concave corner, an arc joins two parallels. Stretches and arcs are divided into equal pieces, one
+//! per particle, so that the particle volumes fill the layers exactly. Every particle stores the exact vector to the
+//! nearest point of the outline. Behind a concave corner, this point is the corner (English et al. 2022).
 
 use glam::{DVec2, DVec3};
 
 use super::boundary::BoundaryParticle;
 
-/// Rounding tolerance [-] for the distance to the outline, relative to the depth, and for the length of a stretch,
-/// relative to dp.
+/// Tolerance for rounding errors [-]: of the distance to the outline, relative to the depth behind the outline, and of
+/// the length of a piece, relative to dp.
 const ROUNDING: f64 = 1e-6;
 
 /// Spacing of the points at which the distance from a parallel to the outline is checked [dp].
@@ -20,13 +21,13 @@ const CHECK_SPACING: f64 = 0.1;
 /// Smallest turn of the outline at which a convex corner counts as an edge [rad]: 20 degrees.
 const EDGE_TURN: f64 = 0.35;
 
-/// A bed whose slope differs by at least this angle from both horizontal and vertical has no free slip [rad]: 14
-/// degrees, 1:4. With free slip on the 1:1 flanks of a wedge, still water begins to circulate, and after ten seconds
-/// its kinetic energy doubles every second. Without free slip its kinetic energy decays. Beds along which waves travel
-/// are flatter.
+/// A bed that is inclined by at least this angle to both the horizontal and the vertical has no free slip [rad]: 14
+/// degrees, a slope of 1:4. With free slip on the 1:1 flanks of a wedge, still water begins to circulate, and after ten
+/// seconds its kinetic energy doubles every second. Without free slip, its kinetic energy decays. Most beds along which
+/// waves travel are flatter and keep free slip.
 const FLANK_ANGLE: f64 = 0.245;
 
-/// Number of bisection steps, which locate the end of a stretch to 1e-7 dp.
+/// Number of bisection steps with which the end of a stretch is located. They reduce the error to 1e-7 dp.
 const BISECTIONS: u32 = 20;
 
 /// The outline of bed and walls in x and z. Seen along the outline, the water lies on the left.
@@ -63,7 +64,7 @@ impl Outline {
     pub fn normal_within(&self, point: DVec2, max_distance: f64) -> Option<DVec2> {
         let is_far = |segment: &[DVec2]| {
             let normal = left_normal(segment);
-            // The point lies in front of this segment and further from its line than `max_distance`.
+            // True if the point lies in front of the line through this segment, further away than `max_distance`.
             (point - segment[0]).dot(normal) > max_distance
         };
         if self.points.windows(2).all(is_far) {
@@ -93,7 +94,7 @@ impl Outline {
     }
 
     /// Returns points about `dp` [m] apart in all layers, (k + 1/2) dp behind the outline for k < `layers`. Each point
-    /// has the length of the layer that it represents [m].
+    /// is returned with the length of the piece of the layer that it represents [m].
     fn layers(&self, dp: f64, layers: u32) -> Vec<(DVec2, f64)> {
         let mut all = Vec::new();
         for depth in (0..layers).map(|k| (f64::from(k) + 0.5) * dp) {
@@ -112,14 +113,14 @@ impl Outline {
         all
     }
 
-    /// Divides the part of a parallel that belongs to its layer into equal pieces about `dp` [m] long. Appends the
-    /// midpoint and the length of each piece [m] to `all`. The parallel is `length` [m] long and lies `depth` [m]
-    /// behind the outline. `point_at` returns the point at an arc length [m].
+    /// Divides the stretches of a parallel into equal pieces about `dp` [m] long. Appends the midpoint and the length
+    /// of each piece [m] to `all`. The parallel is `length` [m] long and lies `depth` [m] behind the outline.
+    /// `point_at` returns the point of the parallel at a given distance from its start [m].
     ///
-    /// The lengths must sum exactly to the length of the layer, also at edges, because sum_b V_b grad W_ab vanishes
-    /// only if the volumes fill the space behind the surface. With whole particles kept or dropped at a 45 degree
-    /// wedge, the error was half a dp^2 per layer and flank. The apex then repelled the water with 2.5 g, and the toes
-    /// attracted it with 1 g.
+    /// The sum of the lengths must equal the length of the layer exactly, also at edges, because sum_b V_b grad W_ab
+    /// vanishes only if the volumes fill the space behind the surface. In a trial, a particle at the edge of a 45
+    /// degree wedge was either kept whole or removed. The area error was dp^2 / 2 per layer and flank. Water above the
+    /// apex was accelerated away with 2.5 g, and water at the toes was accelerated towards the bed with 1 g.
     fn divide(&self, depth: f64, dp: f64, length: f64, point_at: impl Fn(f64) -> DVec2, all: &mut Vec<(DVec2, f64)>) {
         for [from, to] in self.stretches(depth, dp, length, &point_at) {
             let count = ((to - from) / dp).round().max(1.0);
@@ -130,8 +131,8 @@ impl Outline {
         }
     }
 
-    /// Returns start and end [m] of each stretch of a parallel on which no point is nearer to the outline than `depth`
-    /// [m].
+    /// Returns start and end of each stretch of a parallel, as distances from the start of the parallel [m]. On a
+    /// stretch, no point is nearer to the outline than `depth` [m].
     fn stretches(&self, depth: f64, dp: f64, length: f64, point_at: &impl Fn(f64) -> DVec2) -> Vec<[f64; 2]> {
         let is_in_layer = |s: f64| {
             let point = point_at(s);
@@ -156,7 +157,7 @@ impl Outline {
     }
 }
 
-/// Finds by bisection where a condition changes that is true at `inside` and false at `outside`.
+/// Finds by bisection the position where a condition changes. The condition is true at `inside` and false at `outside`.
 fn find_change(mut inside: f64, mut outside: f64, holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (inside + outside);
@@ -169,7 +170,7 @@ fn find_change(mut inside: f64, mut outside: f64, holds: impl Fn(f64) -> bool) -
     inside
 }
 
-/// Returns the unit normal on the left of a segment, the side of the water.
+/// Returns the unit normal of a segment that points to its left side, where the water lies.
 fn left_normal(segment: &[DVec2]) -> DVec2 {
     (segment[1] - segment[0]).normalize().perp()
 }
@@ -191,12 +192,14 @@ impl Across {
         self.width / f64::from(self.count)
     }
 
-    /// Returns the signed distance from `y` to the nearest position between the sides [m]; zero between the sides.
+    /// Returns the vector along y from `y` to the nearest side [m], for a point outside the flume; zero between the
+    /// sides.
     pub fn to_inside(&self, y: f64) -> f64 {
         y.clamp(0.0, self.width) - y
     }
 
-    /// Returns the y positions of the particles [m]; with side walls they include `layers` rows behind each wall.
+    /// Returns the y positions of the particles [m]. If there are side walls, the positions include `layers` rows
+    /// behind each wall.
     pub fn rows(&self, layers: u32) -> Vec<f64> {
         let beyond = if self.walls { i64::from(layers) } else { 0 };
         (-beyond..i64::from(self.count) + beyond).map(|j| (j as f64 + 0.5) * self.spacing()).collect()
@@ -204,8 +207,8 @@ impl Across {
 }
 
 /// Returns the boundary particles behind the outline, across the whole flume and in the corners behind side walls.
-/// `reach` is the kernel support radius [m]. Particles nearer to an edge than `reach` represent both faces of the edge,
-/// so they have no free slip.
+/// `reach` is the kernel support radius [m]. A particle has no free slip if its surface point is nearer to a convex
+/// edge than `reach`, because it then represents both faces of the edge.
 pub fn outline_particles(
     outline: &Outline,
     across: &Across,
@@ -270,7 +273,7 @@ mod tests {
         let (outline, dp) = (tank_with_mound(), 0.02);
         for (point, _) in outline.layers(dp, 3) {
             let layers = outline.nearest(point).distance(point) / dp - 0.5;
-            // 1e-5: the end of a parallel has a tolerance of 1e-6 of the depth.
+            // Limit 1e-5: the distance of a point to the outline has a tolerance of 1e-6 of its depth.
             assert!((layers - layers.round()).abs() < 1e-5, "{point} {layers}");
         }
     }
@@ -284,12 +287,13 @@ mod tests {
             let area: f64 = outline.layers(dp, 3).iter().map(|(_, length)| length * dp).sum();
             let length: f64 = outline.points.windows(2).map(|p| p[0].distance(p[1])).sum();
             let turns = outline.points.windows(3).map(|p| left_normal(&p[0..2]).angle_to(left_normal(&p[1..3])));
-            // Down to the depth d, a concave corner of turn t adds the area t d^2 / 2, and a convex corner removes
-            // tan(t / 2) d^2.
+            // Compared with a straight outline, down to the depth d, a concave corner that turns by the angle t adds
+            // the area t d^2 / 2, and a convex corner removes tan(t / 2) d^2.
             let at_corners: f64 = turns.map(|t| if t > 0.0 { 0.5 * t } else { (0.5 * t).tan() }).sum();
             let depth = 3.0 * dp;
             let exact = length * depth + at_corners * depth * depth;
-            // 1e-5: a stretch ends where a point is nearer to the outline by 1e-6 of its depth.
+            // Limit 1e-5: the end of a stretch has a tolerance, because points may be nearer to the outline by 1e-6
+            // of their depth.
             assert!((area / exact - 1.0).abs() < 1e-5, "{area} {exact}");
         }
     }
@@ -310,7 +314,8 @@ mod tests {
         }
         let flank = Outline::new([[0.0, 0.0], [1.0, 0.5], [9.0, 1.5]].map(DVec2::from_array).to_vec());
         for particle in outline_particles(&flank, &across, 0.02, 3, reach) {
-            // No free slip on the 1:2 slope, free slip on the 1:8 slope. Near x = 1 the layers of both slopes meet.
+            // There is no free slip on the 1:2 slope (x < 1) and free slip on the 1:8 slope (x > 1). Particles near
+            // x = 1 are not checked, because the layers of both slopes meet there.
             let x = particle.position.x + particle.to_surface.x;
             assert!((x - 1.0).abs() < 0.1 || particle.allows_free_slip == (x > 1.0), "{x}");
         }

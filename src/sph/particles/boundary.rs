@@ -17,8 +17,8 @@ pub struct Boundary {
     pub to_surface: Vec<DVec3>,
     /// Volume [m3].
     pub volume: Vec<f64>,
-    /// True if the water may slip freely along the particle: on beds flatter than 1:4 and on walls. False at convex
-    /// edges, on obstacles and, by default, on units, because such a particle represents surfaces of several
+    /// True if free slip is allowed at the particle: on beds flatter than 1:4 and on vertical walls. False at convex
+    /// edges, on obstacles and, by default, on units, because there a particle represents surfaces of several
     /// directions. Free slip along all these surfaces would let water converge inside the solid.
     pub allows_free_slip: Vec<bool>,
     /// Density [kg/m3].
@@ -29,9 +29,10 @@ pub struct Boundary {
     piston_row: Vec<u32>,
     /// Index range of the particles of each unit.
     units: Vec<Range<usize>>,
-    /// Reference position [m]: of a piston particle at zero displacement, of a unit particle in the unit's axes.
+    /// Reference position [m]: for a piston particle its position at zero displacement, for a unit particle its
+    /// position in the unit's axes.
     anchor: Vec<DVec3>,
-    /// Reference value of `to_surface` [m]; for a unit particle in the unit's axes.
+    /// Reference value of `to_surface` [m]; for a unit particle, this vector is in the unit's axes.
     anchor_to_surface: Vec<DVec3>,
 }
 
@@ -44,7 +45,7 @@ pub struct BoundaryParticle {
     pub to_surface: DVec3,
     /// Volume [m3].
     pub volume: f64,
-    /// True if the water may slip freely along the particle; see [`Boundary::allows_free_slip`].
+    /// True if free slip is allowed at the particle; see [`Boundary::allows_free_slip`].
     pub allows_free_slip: bool,
 }
 
@@ -109,15 +110,15 @@ impl Boundary {
         &self.units
     }
 
-    /// Returns the position of each particle of a unit and its vector to the surface [m], in the unit's axes. They are
-    /// the same for all units.
+    /// Returns position and surface vector of each particle of a unit, in the unit's axes [m]. These values are the
+    /// same for all units.
     pub fn positions_in_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let unit = self.units.first().cloned().unwrap_or_default();
         unit.map(|particle| (self.anchor[particle], self.anchor_to_surface[particle]))
     }
 
-    /// Returns the force on each unit and the torque about its centre of mass. `centres` are these centres [m];
-    /// `force_on` returns the force on a boundary particle [N]. The particles are summed in a fixed order.
+    /// Returns the force on each unit and the torque about its centre of mass. `centres` lists the centres of mass [m];
+    /// `force_on` returns the force on the boundary particle with a given index [N]. The order of summation is fixed.
     pub fn unit_loads(&self, centres: &[DVec3], force_on: impl Fn(usize) -> DVec3) -> Vec<Load> {
         let load = |(unit, centre): (&Range<usize>, &DVec3)| {
             let mut load = Load::default();

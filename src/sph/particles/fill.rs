@@ -2,8 +2,8 @@
 //!
 //! The particles form columns from the bed to the free surface. Each column is divided into equal parts about dp high,
 //! with one particle in the middle of each part. A particle has the mass of the water in its part, so the total volume
-//! is exact. No gap remains above a sloping bed. Water that fell into such a gap would drive particles into the bed,
-//! because mDBC alone does not stop them. The density is hydrostatic.
+//! is exact and no gap remains above a sloping bed. Water that falls into such a gap would drive particles into the
+//! bed, because mDBC alone does not stop them. The initial density is hydrostatic.
 
 use glam::{DVec2, DVec3};
 
@@ -37,8 +37,8 @@ impl Basin<'_> {
         ((0..count as u32).map(|i| self.x[0] + (f64::from(i) + 0.5) * spacing).collect(), spacing)
     }
 
-    /// Returns the z levels of the particles in a column from `bed` to `top`, and their spacing [m]. A column lower
-    /// than dp / 2 has no particles.
+    /// Returns the z levels of the particles in a column from the level `bed` to the level `top`, and their spacing
+    /// [m]. A column lower than dp / 2 has no particles.
     fn column(&self, bed: f64, top: f64) -> (impl Iterator<Item = f64> + use<>, f64) {
         let count = ((top - bed) / self.dp).round().max(0.0);
         let spacing = (top - bed) / count.max(1.0);
@@ -71,9 +71,8 @@ impl Basin<'_> {
                     water.position.push(DVec3::new(x, (f64::from(j) + 0.5) * self.across.spacing(), z));
                     water.velocity.push(DVec3::new(velocity.x, 0.0, velocity.y));
                     water.density.push(density);
-                    // With the local density, the volumes m / rho fill the basin. With rho0, the mass would be too
-                    // small for the hydrostatic pressure, and the water would sink until its pressure gradient is too
-                    // steep.
+                    // With the local density, the volumes m / rho fill the basin exactly. With rho0 instead, the mass
+                    // would be too small and the volumes would not fill the basin, so the water would sink.
                     water.mass.push(density * dx * self.across.spacing() * dz);
                 }
             }
@@ -83,12 +82,12 @@ impl Basin<'_> {
     }
 }
 
-/// A particle nearer to a surface than this share of `least` counts as on the surface. At such a small distance,
-/// rounding errors hide the side on which it lies and the direction in which to move it.
+/// If a particle is nearer to a surface than this share of `least` in [`clear_solid`], it counts as on the surface. At
+/// such a small distance, rounding errors hide the side of the particle and the direction in which to move it.
 const ON_SURFACE: f64 = 1e-6;
 
-/// Removes the water particles inside a solid or on its surface. Moves the other particles that are nearer than `least`
-/// [m] outwards to this distance.
+/// Removes the water particles inside a solid or on its surface. Moves other particles outwards to the distance `least`
+/// [m] from the surface if they are nearer to it.
 ///
 /// `locate` returns the surface point nearest to a given point and the distance between them [m], negative inside the
 /// solid.
@@ -132,7 +131,7 @@ mod tests {
         };
         let water = basin.fill(&TAIT);
         let volume: f64 = water.mass.iter().zip(&water.density).map(|(m, rho)| m / rho).sum();
-        // 1e-9: rounding only, because the midpoint rule is exact for straight lines.
+        // Limit 1e-9: rounding only, because the midpoint rule is exact for a straight bed.
         assert!((volume / (0.1 * (0.3 * 2.0 - 0.2)) - 1.0).abs() < 1e-9);
         // The shallowest column is 0.1 m high and has five particles. The volume of a particle differs from dp^3 by at
         // most a tenth, and its density from rho0 by at most 1 %.
@@ -164,7 +163,7 @@ mod tests {
             mass: vec![1.0; 2],
             ..Water::default()
         };
-        // A face at x = 0 with a rounding error: the distance is too small to define a direction.
+        // The solid has a face at x = 0. A rounding error of 1e-17 m gives the first particle a wrong direction.
         clear_solid(&mut water, 0.02, |p| (p + DVec3::Y * 1e-17, if p.x > 0.0 { p.x } else { 1e-17 }));
         assert_eq!(water.position, [DVec3::X]);
     }

@@ -2,7 +2,8 @@
 //!
 //! The particles form a lattice of spacing about dp that divides each edge of the box evenly. The outermost particles
 //! lie half a spacing behind the faces, as in bed and walls. If two or three faces are equally near, the surface vector
-//! of a particle leads to their edge or corner. Its ghost node then lies on the diagonal (English et al. 2022).
+//! of a particle points to their common edge or corner. Its ghost node then lies diagonally beyond this edge or corner
+//! (English et al. 2022).
 
 use glam::DVec3;
 
@@ -10,7 +11,7 @@ use super::boundary::BoundaryParticle;
 use crate::geometry::axis_box::AxisBox;
 
 /// Returns the boundary particles of a box. They are about `dp` [m] apart and less than `thickness` [m] behind an open
-/// face.
+/// face, which is a face that water can reach.
 pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryParticle> {
     let count = (bounds.edges() / dp).round().max(DVec3::ONE);
     let spacing = bounds.edges() / count;
@@ -31,8 +32,8 @@ pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryP
     particles
 }
 
-/// Redirects the surface vectors of the bed and wall particles that an obstacle covers. They then lead to the foot of
-/// the obstacle, the nearest wetted surface.
+/// Changes the surface vectors of the bed and wall particles that an obstacle covers. The new vectors point to the foot
+/// of the obstacle, because the nearest wetted surface is there.
 pub fn cover(particles: &mut [BoundaryParticle], obstacle: &AxisBox) {
     for particle in particles {
         let surface = particle.position + particle.to_surface;
@@ -50,7 +51,7 @@ mod tests {
     fn thin_boxes_are_filled_and_thick_boxes_are_hollow() {
         let thin = AxisBox::free(DVec3::ZERO, DVec3::new(0.15, 0.15, 0.1));
         let particles = box_particles(&thin, 0.02, 0.06);
-        // 0.15 / 0.02 rounds to 8.
+        // Particles along an edge of 0.15 m: 0.15 / 0.02 = 7.5, which rounds to 8.
         assert_eq!(particles.len(), 8 * 8 * 5);
         let total: f64 = particles.iter().map(|p| p.volume).sum();
         assert!((total / thin.volume() - 1.0).abs() < 1e-12);

@@ -8,7 +8,7 @@ use super::boundary::BoundaryParticle;
 /// inwards to this depth, so that no water particle touches them.
 pub const MIN_DEPTH: f64 = 0.35;
 
-/// Number of lattice offsets that are tried along each axis.
+/// Number of lattice offsets that [`unit_particles`] tries along each axis.
 const OFFSETS: u32 = 4;
 
 /// Returns boundary particles that fill a solid on a cubic lattice with spacing `dp` [m], in the axes of the solid.
@@ -46,7 +46,8 @@ pub fn unit_particles(
     points.into_iter().map(to_particle).collect()
 }
 
-/// Returns the points inside the solid of the lattice with spacing `dp` [m] that starts at `origin`.
+/// Returns the points of a cubic lattice that lie inside the solid. The lattice has the spacing `dp` [m] and extends
+/// from `origin` to `high` [m].
 fn points_inside(locate: &impl Fn(DVec3) -> (DVec3, f64), origin: DVec3, high: DVec3, dp: f64) -> Vec<DVec3> {
     let count = ((high - origin) / dp).ceil();
     let mut points = Vec::new();

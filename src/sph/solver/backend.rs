@@ -46,7 +46,7 @@ pub enum DeviceError {
     },
 }
 
-/// Extreme values of the water at the end of a time step.
+/// Extreme values of all water particles at the end of a time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaterExtremes {
     /// Largest speed [m/s].
@@ -55,7 +55,7 @@ pub struct WaterExtremes {
     pub lowest_density: f64,
     /// Highest density [kg/m3].
     pub highest_density: f64,
-    /// True if a particle has left the domain or has a state that is not finite.
+    /// True if a particle has left the domain, or if its position, velocity or density is not finite.
     pub is_unstable: bool,
 }
 
@@ -63,7 +63,7 @@ pub struct WaterExtremes {
 /// [m].
 #[derive(Debug, Clone, Default)]
 pub struct Surfaces {
-    /// Smallest distance of a water particle from a surface; nearer particles lose their velocity towards the surface.
+    /// Distance from a surface below which water particles lose the velocity component towards this surface.
     pub min_distance: f64,
     /// x and z of both ends of each segment of the outline of bed and walls.
     pub outline: Vec<[f64; 4]>,
@@ -71,22 +71,22 @@ pub struct Surfaces {
     pub obstacles: Vec<[DVec3; 2]>,
     /// Centre and radius of a sphere around each part of the units; the radius includes `min_distance`.
     pub bounding_spheres: Vec<(DVec3, f64)>,
-    /// Wavemaker: x position at rest, z of its lowest row, and displacement of each row along x.
+    /// Wavemaker, if any: x at zero displacement, z of its lowest row, and displacement of each row along x.
     pub wavemaker: Option<(f64, f64, Vec<f64>)>,
-    /// Width between the side walls, if there are any; the first side wall stands at y = 0.
+    /// Distance between the side walls, if there are any; the first side wall is at y = 0.
     pub sides: Option<f64>,
 }
 
 /// The water particles near surfaces.
 #[derive(Debug, Clone, Default)]
 pub struct NearWater {
-    /// Index of each particle in the arrays of the device, ascending.
+    /// Index of each particle in the water arrays of the device, in ascending order.
     pub indices: Vec<u32>,
     /// State of the particles.
     pub water: Water,
 }
 
-/// The operations of a time step. They fail only if the device is lost.
+/// The operations of a time step. An operation fails only if the device is lost.
 pub trait Backend: Send {
     /// Returns the name of the device.
     fn name(&self) -> &str;
@@ -97,7 +97,7 @@ pub trait Backend: Send {
     /// Returns the bins of the cell list.
     fn grid(&self) -> &Grid;
 
-    /// Returns the bins of the sorted water. For a card, only `start` is set, by the last [`DeviceMemory::fetch`].
+    /// Returns the bins of the sorted water. For a card, only `start` is set, and only by [`DeviceMemory::fetch`].
     fn water_bins(&self) -> &Bins;
 
     /// Returns the interface to the memory of the device; `None` if the device works on the arrays of the host.
@@ -106,7 +106,7 @@ pub trait Backend: Send {
     /// Sorts all particles into bins, and the arrays of `water` into the order of the bins.
     fn sort(&mut self, water: &mut Water, boundary: &Boundary);
 
-    /// Builds the neighbour lists for this time step.
+    /// Builds the neighbour lists for the present time step.
     fn build_neighbour_lists(&mut self, water: &Water, boundary: &Boundary);
 
     /// Computes the densities of the boundary particles from their ghost nodes.
@@ -130,22 +130,23 @@ pub trait Backend: Send {
     /// Corrector, equations 8.3, 8.4 and 9.2: computes the state at the end of the time step.
     fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary);
 
-    /// Returns the force of the water on each unit and the torque about its centre of mass; `centres` are these centres
-    /// [m].
+    /// Returns the force of the water on each unit and the torque about its centre of mass. `centres` lists the centres
+    /// of mass [m].
     fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<Load>, DeviceError>;
 
-    /// Returns the last computed rates of the water in sorted order, valid until [`DeviceMemory::sort_ahead`]. In rates
-    /// from cards, the approach speed is zero.
+    /// Returns the last computed rates of the water in sorted order. Call it before [`DeviceMemory::sort_ahead`], which
+    /// overwrites the rates. In the rates from a card, the approach speed is zero.
     fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError>;
 
-    /// Returns the powers that the water receives, for the fetched state whose rates were computed last.
+    /// Returns the powers that the water receives. `water` must be the last state for which rates were computed; for a
+    /// card, fetch it first.
     fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError>;
 }
 
 /// A device that keeps the water in its own memory instead of the arrays of the host. The operations fail if the device
 /// is lost. [`Self::load`] also fails if the memory of the device is too small.
 pub trait DeviceMemory {
-    /// Copies water and boundary from the host to the device, at the start and after a checkpoint was read or written.
+    /// Copies water and boundary from the host to the device: at the start, and after a checkpoint was read or written.
     fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError>;
 
     /// Copies the water, its bins and the boundary densities from the device to the arrays of the host.
@@ -154,13 +155,14 @@ pub trait DeviceMemory {
     /// Copies only the boundary densities from the device to the arrays of the host.
     fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError>;
 
-    /// Returns the water particles near the `surfaces`. The host then removes their velocities into the surfaces.
+    /// Returns the water particles near the `surfaces`. The host then removes the velocity components of these
+    /// particles towards the surfaces.
     fn fetch_near_water(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError>;
 
-    /// Writes the velocities of the water near surfaces back to the device.
+    /// Writes the changed velocities of the water near surfaces back to the device.
     fn write_near_velocities(&mut self, near: &NearWater);
 
-    /// Starts to sort the water at its positions at the end of the time step. Meanwhile the host moves the units.
+    /// Starts to sort the water by its positions at the end of the time step. Meanwhile, the host moves the units.
     fn sort_ahead(&mut self);
 
     /// Returns the extreme values of the water at the end of a time step.

@@ -7,7 +7,7 @@ use crate::sph::neighbours::grid::{Bins, Grid};
 use crate::sph::neighbours::lists::{NeighbourLists, SortedPositions, Sources};
 use crate::sph::pairs::rate::Rate;
 
-/// One of the three groups of particles in the records: water, walls (with bed and piston) or units.
+/// One of the three groups of particles: water, walls (with bed and wavemaker) or units.
 #[derive(Debug, Default)]
 pub(super) struct Group {
     pub(super) bins: Bins,

@@ -1,12 +1,12 @@
-//! The time step on the processor, and the interface that the processor and graphics cards have in common.
+//! The time step on the processor, and the common interface of the processor and of graphics cards.
 //!
 //! | file | contents |
 //! | --- | --- |
 //! | [`backend`] | the operations of a time step, on any device |
 //! | [`step`] | equations 7 to 9: symplectic position Verlet, on the processor |
-//! | `group` | sorted water, walls or units with their neighbour lists |
+//! | `group` | a group of particles (water, walls or units): sorted positions, neighbour lists, rates |
 //! | [`time_step`] | size of the variable time step |
-//! | [`power`] | power of boundaries, viscosity and density diffusion |
+//! | [`power`] | power that the water receives from boundaries, viscosity and density diffusion |
 //! | [`sampling`] | pressure, velocity and free-surface level at given points |
 
 pub mod backend;

@@ -1,11 +1,14 @@
 //! Power that the water receives at one moment, and divergence of the water velocity.
 //!
-//! The pressure forces between two water particles conserve their energy. Therefore the sum
+//! The energy of a water particle is its kinetic energy plus its internal energy, which changes at the rate
+//! p_a / rho_a^2 d rho_a/dt per mass. Pressure forces between water particles conserve the sum of their energies.
+//! Therefore the sum over all water particles
 //!
 //!   sum_a m_a (v_a . dv_a/dt + p_a / rho_a^2 d rho_a/dt)     without viscosity and diffusion
 //!
-//! is the power of bed, walls, wavemaker and units. The power of viscosity, or of diffusion, is the same sum over its
-//! contribution to the rates. Gravity only converts kinetic energy to potential energy and back.
+//! is the power of bed, walls, wavemaker and units. The power of viscosity is the same sum with only the rates caused
+//! by viscosity, and the power of diffusion is the sum with only the rates caused by diffusion. Gravity is omitted,
+//! because it only converts kinetic energy to potential energy and back.
 
 use glam::DVec3;
 
@@ -21,16 +24,17 @@ use crate::sph::{
 pub struct Powers {
     /// Power of bed, walls, wavemaker and units through pressure.
     pub boundary: f64,
-    /// Power of viscosity; negative, unless moving walls drag the water along.
+    /// Power of viscosity. It is negative (dissipation), unless moving walls drag the water along.
     pub viscosity: f64,
     /// Power of density diffusion.
     pub diffusion: f64,
-    /// Root mean square over the water of div v = -1 / rho d rho/dt, without diffusion [1/s].
+    /// Root mean square of div v over the volume of the water [1/s]; div v = -(1 / rho) d rho/dt, without diffusion.
     pub divergence: f64,
 }
 
 impl Solver {
-    /// Computes the powers for the state whose rates were computed last. `water` must be this state, in sorted order.
+    /// Computes the powers for the last state for which rates were computed. `water` must be this state, in sorted
+    /// order.
     pub fn powers(&self, water: &Water) -> Powers {
         let parameters = self.parameters;
         let pressure_only = self.rates_with(
@@ -46,15 +50,15 @@ impl Solver {
 }
 
 impl Powers {
-    /// Computes the powers of the sorted water. Its rates `all` include viscosity and diffusion, `pressure_only` do
-    /// not.
+    /// Computes the powers of the sorted water. The rates `all` include viscosity and diffusion; the rates
+    /// `pressure_only` do not.
     pub(in crate::sph) fn of(water: &Water, tait: &Tait, all: &[Rate], pressure_only: &[Rate]) -> Self {
         let vector = |rate: &Rate| DVec3::from_array(rate.acceleration.map(f64::from));
         let mut powers = Self::default();
         let (mut volume, mut squares) = (0.0, 0.0);
         for (a, (all, pressure)) in all.iter().zip(pressure_only).enumerate() {
             let (mass, density) = (water.mass[a], water.density[a]);
-            // p / rho^2 [J m3/kg2].
+            // Power per mass and per d rho/dt: p / rho^2 [J m3/kg2].
             let per_rate = tait.pressure(density) / (density * density);
             let (of_all, of_pressure) = (f64::from(all.density), f64::from(pressure.density));
             powers.boundary += mass * (water.velocity[a].dot(vector(pressure)) + per_rate * of_pressure);
@@ -85,7 +89,8 @@ mod tests {
         }
         let rates = |density: [f32; 2]| density.map(|density| Rate { density, ..Rate::default() });
         let tait = Tait { rho0: 1000.0, c0: 15.0, gamma: 7.0 };
-        // div v = 0.2 / s in a quarter of the water and -0.1 / s in the rest; diffusion adds 50 kg/(m3 s).
+        // div v is 0.2 / s in a quarter of the water and -0.1 / s in the rest. Diffusion adds 50 kg/(m3 s) to every
+        // d rho/dt and must not affect the divergence.
         let powers = Powers::of(&water, &tait, &rates([-150.0, 150.0]), &rates([-200.0, 100.0]));
         let expected = (0.25 * 0.2_f64.powi(2) + 0.75 * 0.1_f64.powi(2)).sqrt();
         assert!((powers.divergence - expected).abs() < 1e-12);

@@ -11,13 +11,15 @@ use crate::sph::terms::kernel::Wendland;
 /// Sum of W V at the free surface [-]: half a neighbourhood.
 const SURFACE: f64 = 0.5;
 
-/// Smallest scaled determinant for which the linear fit is used; see [`mdbc`](crate::sph::boundary::mdbc).
+/// Smallest determinant for which the linear fit is used, relative to a full neighbourhood with the same sum of W V
+/// [-]; compare [`mdbc`](crate::sph::boundary::mdbc).
 const MIN_DETERMINANT: f64 = 0.01;
 
-/// Second moment of the kernel along each axis, int W x^2 dV [h^2]. The exact value in two dimensions is 5/18.
+/// Second moment of the kernel along each axis, the integral of W x^2 over the volume [h^2]. The value holds in three
+/// dimensions; in two dimensions the exact value is 5/18.
 const SECOND_MOMENT: f64 = 4.0 / 15.0;
 
-/// Interpolator in the sorted water of a time step.
+/// Interpolator of pressure, velocity and surface level in the sorted water of a time step.
 #[derive(Clone, Copy)]
 pub struct Sampler<'a> {
     /// Grid of the bins.
@@ -42,14 +44,14 @@ pub struct Sample {
 }
 
 impl Sampler<'_> {
-    /// Folds `f` over the water particles within the kernel support of a point. `f` takes the value so far, the vector
-    /// from the point to the particle [m] and the index of the particle.
+    /// Calls `f` for each water particle within the kernel support of a point, and returns the accumulated value. `f`
+    /// takes the value so far, the vector from the point to the particle [m] and the index of the particle.
     fn fold<T>(&self, point: DVec3, start: T, mut f: impl FnMut(T, DVec3, usize) -> T) -> T {
         let (grid, reach) = (self.grid, self.kernel.support());
         let [nx, ny, _] = grid.count;
         let bins = |axis: usize| grid.along(axis, point[axis] - reach)..=grid.along(axis, point[axis] + reach);
         let (x, z) = (bins(0), bins(2));
-        // In a periodic flume, search every row: the gauges are few, so this costs little.
+        // In a periodic flume, search all bins along y. This costs little, because there are few gauges.
         let y = if grid.periodic_width.is_some() { 0..=ny - 1 } else { bins(1) };
         let mut value = start;
         for iz in z {
@@ -72,7 +74,8 @@ impl Sampler<'_> {
         value
     }
 
-    /// Returns (m / rho) W [-] of the particle `b` at the vector `r` [m] from the point.
+    /// Returns the weight V W = (m / rho) W [-] of the particle `b`; `r` is the vector from the point to the particle
+    /// [m].
     fn weight(&self, r: DVec3, b: usize) -> f64 {
         self.water.mass[b] / self.water.density[b] * self.kernel.value(self.kernel.closeness(r.length()))
     }
@@ -86,7 +89,8 @@ impl Sampler<'_> {
     /// weighted mean if the fit is ill-conditioned. Returns `None` if the point is dry.
     pub fn sample(&self, point: DVec3) -> Option<Sample> {
         let per_h = 1.0 / self.kernel.h;
-        // Weighted sums of the products of (1, x, y, z) with (1, x, y, z, p, u, v, w).
+        // Sums, with the weight V W, of the products of (1, x, y, z) with (1, x, y, z, p, u, v, w); x, y, z in units of
+        // h.
         let mut moments = self.fold(point, [[0.0; 8]; 4], |mut sums, r, b| {
             let weight = self.weight(r, b);
             let [x, y, z] = (r * per_h).to_array();
@@ -100,7 +104,7 @@ impl Sampler<'_> {
             sums
         });
         let occupied = moments[0][0];
-        // A point slightly above a calm free surface has a fifth of a neighbourhood.
+        // The sum of W V is 0.2 slightly above a calm free surface; points with a smaller sum count as dry.
         if occupied < 0.2 {
             return None;
         }
@@ -116,8 +120,8 @@ impl Sampler<'_> {
         Some(Sample { pressure: value(0), velocity: DVec3::new(value(1), value(2), value(3)) })
     }
 
-    /// Returns the level z of the free surface at (x, y) [m]. It is searched from `high` down to `low` [m]; `None` if
-    /// dry.
+    /// Returns the level z of the free surface at (x, y) [m], searched from `high` down to `low` [m]. Returns `None` if
+    /// there is no water between these levels.
     pub fn surface(&self, xy: DVec2, low: f64, high: f64) -> Option<f64> {
         let step = 0.25 * self.kernel.h;
         let occupied_at = |z: f64| self.occupied(xy.extend(z));

@@ -1,7 +1,7 @@
 //! Operations of the symplectic position Verlet step (equations 7 to 9). [`crate::simulation::flume`] calls these
 //! operations in this order:
 //!
-//! sort - neighbour lists - boundary densities - rates - time step - predict - rates - correct
+//! sort, neighbour lists, boundary densities, rates, size of the time step, predict, rates, correct
 //!
 //! In the paper, equations 8.3, 8.4 and 9.2 have half-step values on their right-hand sides, which would count half a
 //! time step twice. As in equation 7.2 and in Parshikov et al. (2000), this code uses the values at the start of the
@@ -45,7 +45,7 @@ pub struct Solver {
     gap_lists: NeighbourLists,
     records: Vec<Record>,
     ghosts: GhostNodes,
-    /// Velocities at the ghost nodes; not computed if the wall slip condition does not need them.
+    /// Water velocities at the ghost nodes; computed only if the wall slip condition needs them.
     ghost_velocities: GhostVelocities,
     gradients: Gradients,
     half: Water,
@@ -150,8 +150,8 @@ impl Solver {
         };
         let speed = largest_speed(&water.velocity).max(largest_speed(&boundary.velocity));
         let Parameters { kernel, cfl, tait, .. } = &self.parameters;
-        // dt is at most cfl h / c; in a splash, c can be 10 % below c0. Each of the two particles moves by at most
-        // speed * dt / 2.
+        // dt is at most cfl h / c, and in a splash c can be 10 % below c0. In half a time step, each of the two
+        // particles moves by at most speed * dt / 2, so their distance decreases by at most speed * dt.
         let step = cfl * kernel.h / (0.9 * tait.c0);
         kernel.support() + (speed * step).min(kernel.h)
     }
@@ -166,8 +166,8 @@ impl Solver {
         });
     }
 
-    /// Fills the records of the boundary. `density` is its density at the start of a time step or at the half step
-    /// [kg/m3].
+    /// Fills the records of the boundary particles. `density` lists their densities at the start of a time step or at
+    /// the half step [kg/m3].
     fn fill_boundary_records(&mut self, boundary: &Boundary, density: &[f64]) {
         let (grid, parameters, ghost_velocities) = (&self.grid, &self.parameters, &self.ghost_velocities);
         let (of_walls, of_units) = self.records[self.walls.first_record..].split_at_mut(boundary.walls().len());
@@ -186,8 +186,8 @@ impl Solver {
         fill(of_units, &self.units.bins.order, boundary.walls().len());
     }
 
-    /// Under mDBC, computes the boundary densities from the ghost nodes. Under DBC they follow from the continuity
-    /// equation. Fills the records of the boundary.
+    /// Under mDBC, computes the boundary densities from the ghost nodes. Under DBC, the densities follow from the
+    /// continuity equation and are not changed here. Then fills the records of the boundary particles.
     pub fn boundary_densities(&mut self, boundary: &mut Boundary) {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
@@ -220,7 +220,7 @@ impl Solver {
         &self.water.rates
     }
 
-    /// Computes the rates of the water with another viscosity and diffusion.
+    /// Computes the rates of the water for the present records, but with the given viscosity and diffusion.
     pub(super) fn rates_with(&self, viscosity: Viscosity, diffusion: Diffusion) -> Vec<Rate> {
         let pairs = self.pairs.with_parameters(Parameters { viscosity, diffusion, ..self.parameters });
         let mut rates = vec![Rate::default(); self.water.rates.len()];
@@ -233,8 +233,8 @@ impl Solver {
         Limits::of(&self.records[..self.water.rates.len()], &self.water.rates, self.parameters.gravity)
     }
 
-    /// Predictor, equations 8.1, 8.2 and 9.1: computes the half-step state separately from `water`. `move_boundary`
-    /// moves the boundary to the half step.
+    /// Predictor, equations 8.1, 8.2 and 9.1: computes the state at the half step without changing `water`.
+    /// `move_boundary` moves the boundary to its positions at the half step.
     pub fn predict(
         &mut self,
         dt: f64,
@@ -279,7 +279,7 @@ impl Solver {
         }
     }
 
-    /// Returns the index of each boundary particle with its d rho / dt [kg/(m3 s)].
+    /// Returns index and d rho / dt [kg/(m3 s)] of each boundary particle.
     fn boundary_rates(&self) -> Vec<(usize, f64)> {
         let rates = |group: &Group, offset: usize| {
             let pairs = group.bins.order.iter().zip(&group.rates);
@@ -318,8 +318,8 @@ impl Solver {
         }
     }
 
-    /// Returns the force of the water on each unit and the torque about its centre of mass; `centres` are these centres
-    /// [m].
+    /// Returns the force of the water on each unit and the torque about its centre of mass. `centres` lists the centres
+    /// of mass [m].
     pub fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Vec<Load> {
         let first_unit = boundary.walls().end;
         self.unit_force.resize(boundary.len() - first_unit, DVec3::ZERO);
@@ -330,7 +330,8 @@ impl Solver {
         boundary.unit_loads(centres, |i| self.unit_force[i - first_unit])
     }
 
-    /// Returns the mean number of pairs computed per water particle, including idle lanes.
+    /// Returns the mean number of pairs that are computed per water particle, including pairs in unused lanes and pairs
+    /// outside the kernel support.
     pub fn lanes_per_target(&self) -> f64 {
         self.water.lists.lanes_per_target()
     }
@@ -340,12 +341,13 @@ impl Solver {
         self.pairs.count_within_support(&self.water.lists, &self.records) as f64 / self.water.rates.len().max(1) as f64
     }
 
-    /// Returns the size of the neighbour lists and records, which every evaluation of the rates reads [bytes].
+    /// Returns the size of the neighbour lists of the water and of the records [bytes]. Every evaluation of the rates
+    /// reads these data.
     pub fn bytes_read(&self) -> usize {
         self.water.lists.bytes() + self.records.len() * size_of::<Record>()
     }
 
-    /// Returns the memory in use, without the state of water and boundary [bytes].
+    /// Returns the memory that the solver uses in addition to the state of water and boundary [bytes].
     pub fn bytes(&self) -> usize {
         let groups: usize = [&self.water, &self.walls, &self.units].map(Group::bytes).iter().sum();
         let records = self.records.capacity() * size_of::<Record>();
@@ -359,7 +361,7 @@ impl Solver {
             + self.sorted.bytes()
     }
 
-    /// Returns the bins of the sorted water, for gauges.
+    /// Returns the bins of the sorted water. The gauges search their neighbours in these bins.
     pub fn water_bins(&self) -> &Bins {
         &self.water.bins
     }
@@ -389,12 +391,14 @@ mod tests {
 
     #[test]
     fn density_update_is_second_order() {
-        // For d rho / dt = -rho, compares one time step with the exact factor exp(-dt).
+        // For d rho / dt = -rho, the function returns the error of one time step, compared with the exact factor
+        // exp(-dt).
         let error = |dt: f64| {
             let half = 1000.0 * (1.0 - 0.5 * dt);
             (end_density(1000.0, half, -half, dt) / 1000.0 - (-dt).exp()).abs()
         };
-        // Halving dt reduces the error of one time step by a factor of eight: this local error is of third order.
+        // If dt is halved, the error of one time step decreases by a factor of eight. The error per time step is thus
+        // of third order, and the error over a fixed time is of second order.
         let ratio = error(0.02) / error(0.01);
         assert!((ratio - 8.0).abs() < 0.2, "{ratio}");
     }

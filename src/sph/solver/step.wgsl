@@ -7,8 +7,8 @@
 @group(0) @binding(5) var<storage, read> rates: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> half_offset: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> half_motion: array<vec4<f32>>;
-// Bit pattern of the largest speed [m/s]; lowest and highest rho - rho0 as ordered integers; 1 if a particle has left
-// the domain or is not finite; number of particles near surfaces (near.wgsl).
+// Five values: bit pattern of the largest speed [m/s]; lowest and highest rho - rho0 as integers (see `ordered`);
+// 1 if a particle has left the domain or is not finite, else 0; number of particles near surfaces (near.wgsl).
 @group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>, 5>;
 
 fn with_gravity(rate: vec4<f32>) -> vec3<f32> {
@@ -30,13 +30,14 @@ fn predict(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gro
     half_motion[i] = vec4<f32>(now.xyz + half_dt * with_gravity(rate), now.w);
 }
 
-// Maps a number to an integer; the integers have the same order as the numbers.
+// Maps a number to an integer so that the integers have the same order as the numbers, for atomicMin and atomicMax.
 fn ordered(value: f32) -> u32 {
     let bits = bitcast<u32>(value);
     return select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u);
 }
 
-// Returns true if all values are finite. Tests the bits, because a shader compiler may assume that values are finite.
+// Returns true if all values are finite. The function tests the bits, because shader compilers are allowed to assume
+// that all numbers are finite.
 fn is_finite(values: vec4<f32>) -> bool {
     return all((bitcast<vec4<u32>>(values) & vec4<u32>(0x7f800000u)) != vec4<u32>(0x7f800000u));
 }
@@ -77,7 +78,7 @@ fn correct(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gro
         let before = offset[i];
         let moved = before.xyz + (0.5 * step.dt) * (now.xyz + velocity);
         let epsilon = -step.dt * rate.w / (parameters.rho0 + half_offset[i].w);
-        // rho (2 - epsilon) / (2 + epsilon), minus rho0.
+        // `excess` equals rho (2 - epsilon) / (2 + epsilon) - rho0, equation 9.2, written without cancellation.
         let excess = before.w - (parameters.rho0 + before.w) * (2.0 * epsilon / (2.0 + epsilon));
         let turned = floor(moved / parameters.size);
         var place = cell[i];

@@ -1,17 +1,17 @@
-//! Variable time step (Monaghan et al. 1999): dt = C min(dt_f, dt_cv),
-//! and, with laminar viscosity, at most h^2 / 8 nu (Morris et al. 1997);
-//! dt_f = min_a sqrt(h / |dv_a/dt|), dt_cv = min_a h / (c_a + max_b |h v_ab . r_ab / (r_ab^2 + 0.01 h^2)|).
+//! Variable time step (Monaghan et al. 1999): dt = C min(dt_f, dt_cv), with the Courant number C and the limits
+//! dt_f = min_a sqrt(h / |dv_a/dt|) and dt_cv = min_a h / (c_a + max_b |h v_ab . r_ab / (r_ab^2 + 0.01 h^2)|).
+//! With laminar viscosity nu, dt is also at most h^2 / (8 nu) (Morris et al. 1997).
 
 use rayon::prelude::*;
 
 use crate::sph::{neighbours::records::Record, pairs::rate::Rate, parameters::Parameters, terms::viscosity::Viscosity};
 
-/// Largest acceleration and signal speed over the water.
+/// Largest acceleration and largest signal speed of all water particles.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Limits {
     /// Largest acceleration, max |dv/dt| [m/s2].
     pub acceleration: f64,
-    /// Largest signal speed, max (c + |mu|) with mu of equation 3 [m/s].
+    /// Largest signal speed, max_a (c_a + max_b |mu_ab|) with mu_ab of equation 3, for all pairs [m/s].
     pub signal_speed: f64,
 }
 

@@ -1,15 +1,15 @@
 //! Equations 4 and 5: density diffusion of Fourtakas et al. (2019),
 //! D_a = 2 delta h c sum_b (rho_ba^T - rho_ab^H) (r_ab . grad_a W_ab) / r_ab^2 V_b.
 //!
-//! Two details differ from the printed equations. (1) With rho_ba = rho_b - rho_a and r_ab = r_a - r_b the sum is
-//! negative where neighbours are denser. The printed sign would amplify density differences. This code uses the
+//! Two details differ from these printed equations. (1) With rho_ba = rho_b - rho_a and r_ab = r_a - r_b, the sum is
+//! negative where neighbours are denser, so the printed sign would amplify density differences. This code uses the
 //! opposite sign, as in Molteni & Colagrossi (2009). (2) The printed equation 5, rho_ab^H = rho0 g z_ab, is a pressure.
 //! This code uses the density at this pressure from the equation of state,
 //! rho^H = rho0 [(1 + gamma rho0 g z_ab / (rho0 c0^2))^(1/gamma) - 1].
 //!
 //! Under DBC, boundary particles repel the water by their excess density. As in DualSPHysics, density diffusion
-//! excludes these particles and the water within their support. Diffusion would remove the excess density, and the
-//! water would sink into the wall.
+//! excludes these particles and the water within their kernel support. If they took part, diffusion would remove the
+//! excess density, and the water would sink into the wall.
 
 use super::equation_of_state::Tait;
 use crate::sph::lanes::Real;
@@ -92,7 +92,8 @@ mod tests {
         let diffusion = Diffusion::new(DensityDiffusion::Fourtakas, 0.1, 0.02, &tait, g);
         for z in [-0.04, -0.01, 0.02, 0.04_f64] {
             let root = rho0 * ((1.0 + gamma * g * z / (c0 * c0)).powf(1.0 / gamma) - 1.0);
-            // 1e-4: the third term of the series, (gamma - 1)(2 gamma - 1)/6 (g z / c0^2)^2 = 4e-5.
+            // Limit 1e-4: the relative error is the neglected third term of the series,
+            // (gamma - 1)(2 gamma - 1)/6 (g z / c0^2)^2, which is at most 4e-5.
             assert!((-diffusion.excess(0.0, 0.0, z) / root - 1.0).abs() < 1e-4);
         }
     }

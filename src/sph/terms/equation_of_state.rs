@@ -12,7 +12,7 @@ pub struct Tait {
 }
 
 impl Tait {
-    /// Returns c0^2 rho0 / gamma [Pa].
+    /// Returns the factor c0^2 rho0 / gamma of the pressure [Pa].
     fn stiffness(&self) -> f64 {
         self.c0 * self.c0 * self.rho0 / self.gamma
     }
@@ -32,7 +32,7 @@ impl Tait {
         self.c0 * self.power(rho / self.rho0, 0.5 * (self.gamma - 1.0))
     }
 
-    /// Returns the internal energy of compression per mass, int p / rho^2 d rho from rho0 [J/kg].
+    /// Returns the internal energy of compression per mass, the integral of p / rho^2 d rho from rho0 to `rho` [J/kg].
     pub fn internal_energy(&self, rho: f64) -> f64 {
         let ratio = rho / self.rho0;
         let b = self.stiffness() / self.rho0;
@@ -54,7 +54,7 @@ mod tests {
     #[test]
     fn density_inverts_pressure() {
         for p in [-100.0, 0.0, 3000.0, 2e4] {
-            // 1e-9 relative to the stiffness of 6e4 Pa: rounding.
+            // Limit: 1e-9 of the factor c0^2 rho0 / gamma = 6e4 Pa, for rounding.
             assert!((WATER.pressure(WATER.density(p)) - p).abs() < 1e-9 * 6e4);
         }
     }
@@ -63,7 +63,7 @@ mod tests {
     fn sound_speed_is_the_derivative_of_pressure() {
         let rho = 1013.0;
         let slope = (WATER.pressure(rho + 1e-3) - WATER.pressure(rho - 1e-3)) / 2e-3;
-        // 1e-6: second-order difference quotient.
+        // Limit 1e-6: error of the difference quotient.
         assert!((slope.sqrt() / WATER.sound_speed(rho) - 1.0).abs() < 1e-6);
     }
 

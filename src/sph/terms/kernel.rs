@@ -3,7 +3,7 @@
 //! W(q) = alpha_D (1 - q/2)^4 (2q + 1), q = r/h <= 2, with alpha_D = 21 / (16 pi h^3) in three dimensions. A
 //! two-dimensional flume is a single layer of particles with thickness t. With alpha_D = 7 / (4 pi h^2 t), volumes,
 //! masses and forces keep their units, and every sum over the layer equals the two-dimensional sum. The gradient is
-//! grad_a W_ab = G(r) r_ab with G = -5 alpha_D / h^2 (1 - q/2)^3. It needs no division by r.
+//! grad_a W_ab = G(r) r_ab with G = -5 alpha_D / h^2 (1 - q/2)^3. This form needs no division by r.
 
 use std::f64::consts::PI;
 
@@ -64,7 +64,7 @@ impl Wendland {
     #[inline(always)]
     pub fn shape<R: Real>(&self, closeness: R) -> R {
         let square = closeness * closeness;
-        // 2q + 1 = 5 - 4 (1 - q/2)
+        // The second factor is 2q + 1 = 5 - 4 (1 - q/2).
         square * square * closeness.mul_add(R::splat(-4.0), R::splat(5.0))
     }
 
@@ -106,21 +106,22 @@ mod tests {
     #[test]
     fn kernel_integrates_to_one() {
         let kernel = Wendland::new(0.02);
-        // 1e-6: the constants are stored in single precision.
+        // Limit 1e-6: the constants of the kernel are stored in single precision.
         assert!((integral(0.02, |r| kernel.value(kernel.closeness(r))) - 1.0).abs() < 1e-6);
     }
 
     #[test]
     fn layer_kernel_integrates_to_one_over_the_layer() {
         let kernel = Wendland::in_layer(0.02, 0.01);
-        // The factor converts the area 4 pi r^2 of `integral` to 2 pi r times the thickness of the layer.
+        // The factor 0.01 / (2 r) converts the area 4 pi r^2 in `integral` to 2 pi r times the thickness of 0.01 m.
         let over_layer = |r: f64| kernel.value(kernel.closeness(r)) * 0.01 / (2.0 * r);
         assert!((integral(0.02, over_layer) - 1.0).abs() < 1e-6);
     }
 
     #[test]
     fn gradient_of_a_linear_field_is_exact() {
-        // int (grad W)_x (-x) dV = 1; by symmetry this integral is a third of -int G r^2 dV.
+        // The gradient of the field x is exact if the integral of (grad W)_x (-x) over the volume is 1. By symmetry,
+        // this integral is a third of the integral of -G r^2.
         let kernel = Wendland::new(0.02);
         let sum = integral(0.02, |r| -kernel.gradient_factor(kernel.closeness(r)) * r * r / 3.0);
         assert!((sum - 1.0).abs() < 1e-6);
@@ -132,7 +133,7 @@ mod tests {
         for r in [0.003, 0.017, 0.031] {
             let w = |r: f64| kernel.value(kernel.closeness(r));
             let difference = (w(r + 1e-6) - w(r - 1e-6)) / 2e-6;
-            // 1e-5: second-order difference quotient over 1e-6 m.
+            // Limit 1e-5: error of the difference quotient over 2e-6 m, and single-precision constants.
             let exact = kernel.gradient_factor(kernel.closeness(r)) * r;
             assert!((difference - exact).abs() < 1e-5 * exact.abs());
         }

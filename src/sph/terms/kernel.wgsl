@@ -1,17 +1,17 @@
 // Quintic Wendland kernel (kernel.rs).
 
-// Returns 1 - q/2 [-]; zero outside the support.
+// Returns the closeness 1 - q/2 [-] with q = r/h, for the distance r [m]; zero outside the support.
 fn closeness_of(r: f32) -> f32 {
     return max(1.0 - r * parameters.inv_2h, 0.0);
 }
 
-// Returns W without its constant factor alpha_D.
+// Returns the kernel W without its constant factor alpha_D.
 fn kernel_shape(closeness: f32) -> f32 {
     let square = closeness * closeness;
     return square * square * (5.0 - 4.0 * closeness);
 }
 
-// Returns G without its constant factor -5 alpha_D / h^2.
+// Returns G without its constant factor -5 alpha_D / h^2; grad_a W_ab = G r_ab.
 fn gradient_shape(closeness: f32) -> f32 {
     return closeness * closeness * closeness;
 }

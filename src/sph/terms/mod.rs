@@ -3,7 +3,7 @@
 //! | file | equation |
 //! | --- | --- |
 //! | [`kernel`] | quintic Wendland kernel |
-//! | [`momentum`] | 1: pressure acceleration |
+//! | [`momentum`] | 1: momentum |
 //! | [`continuity`] | 2: continuity |
 //! | [`viscosity`] | 3: artificial viscosity; laminar viscosity |
 //! | [`turbulence`] | sub-particle-scale stress |

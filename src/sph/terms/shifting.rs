@@ -7,7 +7,8 @@
 
 use glam::DVec3;
 
-/// div r at the free surface in two and three dimensions [-]; particles with a smaller div r are not shifted.
+/// Value of div r at which the shift becomes zero, in two and in three dimensions [-]. Particles with a smaller div r
+/// count as free surface and are not shifted.
 const SURFACE: [f64; 2] = [1.5, 2.75];
 
 /// Largest shift as a share of the particle spacing.
@@ -22,7 +23,7 @@ pub struct Shifting {
     pub h: f64,
     /// Particle spacing [m].
     pub dp: f64,
-    /// Number of dimensions, 2 or 3; it equals div r of a full neighbourhood.
+    /// Number of dimensions, 2 or 3; div r of a full neighbourhood has the same value.
     pub dimensions: u32,
 }
 

@@ -3,7 +3,8 @@
 //!
 //!   tau = 2 nu_t rho (S - tr S / 3) - 2/3 rho C_I D^2 |S|^2,   nu_t = (C_s D)^2 |S|,   |S| = sqrt(2 S : S),
 //!
-//! where S is the strain rate; the acceleration is sum_b m_b (tau_a / rho_a^2 + tau_b / rho_b^2) grad_a W_ab.
+//! where S is the strain rate and D the filter width. The acceleration is
+//! sum_b m_b (tau_a / rho_a^2 + tau_b / rho_b^2) grad_a W_ab.
 
 /// Constants of the turbulence closure.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +46,7 @@ mod tests {
         let mut gradient = [[0.0; 3]; 3];
         gradient[0][2] = rate;
         let stress = Smagorinsky::new(dp).specific_stress(gradient, rho);
-        // |S| is the shear rate: tau_xz = rho nu_t du/dz.
+        // In pure shear, |S| equals the shear rate du/dz, and tau_xz = rho nu_t du/dz.
         let expected = (0.12 * dp).powi(2) * rate * rate / rho;
         assert!((stress[4] / expected - 1.0).abs() < 1e-12);
         let isotropic = -2.0 / 3.0 * 0.0066 * dp * dp * rate * rate / rho;

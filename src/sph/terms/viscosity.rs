@@ -1,6 +1,6 @@
 //! Equation 3: artificial viscosity (Monaghan 1992),
 //! Pi_ab = -alpha c_ab mu_ab / rho_ab with mu_ab = h v_ab . r_ab / (r_ab^2 + 0.01 h^2) where v_ab . r_ab < 0, else 0;
-//! c_ab and rho_ab are means of the pair.
+//! c_ab and rho_ab are the mean speed of sound and the mean density of both particles.
 //!
 //! The alternative is laminar viscosity, in two forms. The acceleration of Lo & Shao (2002),
 //!
@@ -11,7 +11,7 @@
 //!
 //!   sum_b m_b 2 K nu / (rho_a + rho_b) (v_ab . r_ab) / (r_ab^2 + 0.01 h^2) grad_a W_ab,
 //!
-//! acts along the line between the particles. Inside the water both forms converge to nu laplace v where div v = 0
+//! acts along the line between the particles. Inside the water, both forms converge to nu div grad v where div v = 0
 //! (Espanol & Revenga 2003; Hu & Adams 2006). Only the second form conserves angular momentum. At a free surface, only
 //! the second form has the dissipation of a Newtonian fluid: 2 mu S : S per volume, not mu |grad v|^2 (Colagrossi et
 //! al. 2011).
@@ -41,18 +41,20 @@ pub enum Viscosity {
     },
 }
 
-/// Returns mu_ab / h [1/s]; negative for particles that approach each other.
+/// Returns v_ab . r_ab / (r_ab^2 + 0.01 h^2), which is mu_ab / h [1/s] for any sign of v_ab . r_ab; negative for
+/// particles that approach each other.
 #[inline(always)]
 pub fn approach_rate<R: Real>(h: f32, v_dot_r: R, r2: R) -> R {
     v_dot_r / (r2 + R::splat(0.01 * h * h))
 }
 
-/// Returns rho_a rho_b Pi_ab [Pa]; it is never negative, because artificial viscosity resists only approach.
+/// Returns rho_a rho_b Pi_ab of equation 3 [Pa], never negative, because artificial viscosity resists only approach.
+/// `rate` is the [`approach_rate`] [1/s].
 #[inline(always)]
 pub fn viscous_stress<R: Real>(alpha: f32, h: f32, rate: R, c_a: R, c_b: R, rho_a: R, rho_b: R) -> R {
-    // 0.25 combines the factors 1/2 of both means. The mean density replaces rho_a rho_b / rho_ab; the difference is
-    // (rho_a - rho_b)^2 / (4 rho_ab). In weakly compressible flow it is below 1e-5 of the mean density, which is less
-    // than single precision resolves in the sum.
+    // 0.25 is the product of the factors 1/2 of both means. The mean density rho_ab replaces rho_a rho_b / rho_ab; the
+    // difference is (rho_a - rho_b)^2 / (4 rho_ab). In weakly compressible flow it is below 1e-5 of the mean density,
+    // which is less than single precision resolves in the sum.
     (c_a + c_b) * (rho_a + rho_b) * (R::splat(-0.25 * alpha * h) * rate.min(R::splat(0.0)))
 }
 
@@ -82,7 +84,8 @@ mod tests {
         let separating = approach_rate(h, 1e-3_f64, 1e-4);
         assert_eq!(viscous_stress(0.04, h, separating, 30.0, 30.0, 1000.0, 1000.0), 0.0);
         let stress = viscous_stress(0.04, h, closing, 30.0, 30.0, 1000.0, 1010.0);
-        // Equation 3 times rho_a rho_b; 1e-4: approximation by the mean density, and single-precision constants.
+        // `exact` is equation 3 times rho_a rho_b. Limit 1e-4: replacement of rho_a rho_b / rho_ab by the mean density,
+        // and single-precision constants.
         let mu = 0.02 * -1e-3 / (1e-4 + 0.01 * 0.02 * 0.02);
         let exact = -0.04 * 30.0 * mu / 1005.0 * 1000.0 * 1010.0;
         assert!((stress / exact - 1.0).abs() < 1e-4);

@@ -1,5 +1,5 @@
-//! Wall slip under mDBC: velocity of boundary particles in the equations of the water, from the velocity at ghost
-//! nodes.
+//! Wall slip under mDBC: the velocity that a boundary particle has in the equations of the water. It follows from the
+//! water velocity at the ghost node and the velocity of the wall.
 
 use glam::DVec3;
 
@@ -8,28 +8,28 @@ use glam::DVec3;
 pub struct GhostVelocity {
     /// Velocity [m/s].
     pub velocity: DVec3,
-    /// Trust in the linear fit [-], from 0 (too few layers of water) to 1 (deep water).
+    /// Trust in the linear fit at the node [-], from 0 (too few layers of water particles) to 1 (deep water).
     pub trust: f64,
 }
 
 /// Wall slip condition, which sets the velocity of a boundary particle in the equations of the water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WallSlip {
-    /// The velocity of the wall (English et al. 2022).
+    /// The boundary particle has the velocity of the wall (English et al. 2022).
     Original,
-    /// No slip: the water's velocity mirrored about the wall's velocity.
+    /// No slip: the mean of the velocities of boundary particle and ghost node is the velocity of the wall.
     NoSlip,
-    /// Free slip: the normal component is mirrored, and the tangential component equals the tangential velocity of the
-    /// water.
+    /// Free slip: the normal component is mirrored as for no slip, and the tangential component equals the tangential
+    /// velocity at the ghost node.
     FreeSlip,
 }
 
 impl WallSlip {
     /// Returns the velocity of a boundary particle [m/s]. `wall` is the velocity of the wall [m/s], `ghost` the
-    /// velocity of the water at the ghost node (`None` if dry), and `to_surface` the vector to the surface [m]. A dry
-    /// node gives the velocity of the wall. In thin sheets nothing is mirrored, because a sheet would bounce off its
-    /// own mirrored velocity. If `free_slip` is false (see [`Boundary::allows_free_slip`]), `FreeSlip` uses the
-    /// tangential velocity of the wall.
+    /// velocity of the water at the ghost node (`None` if dry), and `to_surface` the vector to the surface [m]. For a
+    /// dry node, the function returns the velocity of the wall. In thin sheets of water (trust 0), no velocity is
+    /// mirrored, because the sheet would bounce off its own mirrored velocity. If `free_slip` is false (see
+    /// [`Boundary::allows_free_slip`]), `FreeSlip` uses the tangential velocity of the wall.
     ///
     /// [`Boundary::allows_free_slip`]: crate::sph::particles::boundary::Boundary::allows_free_slip
     pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3, free_slip: bool) -> DVec3 {
@@ -60,7 +60,8 @@ mod tests {
         assert!((mean(WallSlip::NoSlip) - wall).length() < 1e-15);
         assert!((mean(WallSlip::FreeSlip) - DVec3::new(1.0, 2.0, 0.2)).length() < 1e-15);
         assert_eq!(WallSlip::NoSlip.velocity(wall, None, up, true), wall);
-        // In a thin sheet, free slip keeps the tangential velocity and mirrors no normal velocity.
+        // In a thin sheet (trust 0), free slip uses the tangential velocity of the water and the normal velocity of the
+        // wall.
         let sliding = WallSlip::FreeSlip.velocity(wall, ghost_with(0.0), up, true);
         assert!((sliding - DVec3::new(1.0, 2.0, 0.2)).length() < 1e-15);
         assert_eq!(WallSlip::NoSlip.velocity(wall, ghost_with(0.0), up, true), wall);

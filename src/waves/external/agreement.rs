@@ -1,4 +1,4 @@
-//! Test: files of all programs with the same velocity give the same table.
+//! Test: if the files of different programs contain the same velocity, all readers return the same table.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -65,10 +65,11 @@ fn same_velocity_in_all_file_formats_gives_the_same_table() {
         for j in 0..=20 {
             let (t, z) = (0.039 * f64::from(i), PLACE.bed_z_m + 0.04 * f64::from(j));
             let u = tables[0].velocity_m_s(z, t);
-            // The files have all digits; only adding and subtracting the origin of z rounds the levels.
+            // Limit 1e-6 m/s: the files contain all digits; only the conversion between origins of z rounds the levels.
             assert!(tables.iter().all(|table| (table.velocity_m_s(z, t) - u).abs() < 1e-6));
             if (levels()[0]..=levels()[LAYERS - 1]).contains(&z) {
-                // Error of linear interpolation over 0.1 m and 0.02 s: u'' dz^2 / 8 + u'' dt^2 / 8 is 1e-3 + 2e-4.
+                // Linear interpolation has the errors u_zz dz^2 / 8 = 1e-3 m/s (dz = 0.1 m) and
+                // u_tt dt^2 / 8 = 2e-4 m/s (dt = 0.02 s).
                 assert!((u - velocity(z, t)).abs() < 1.5e-3);
             }
         }

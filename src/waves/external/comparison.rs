@@ -10,18 +10,18 @@ pub struct Comparison {
     pub crest_m: f64,
     /// Time of the crest of the other program [s].
     pub crest_s: f64,
-    /// Crest elevation of the other program over that of the flume model, minus 1 [-].
+    /// Crest elevation of the other program divided by the crest elevation of the flume model, minus 1 [-].
     pub relative_height_difference: f64,
     /// Delay of the crest relative to the flume model [s]; positive if the crest of the other program is later.
     pub delay_s: f64,
-    /// RMS difference of the elevations over the crest elevation of the flume model [-], at the times of the other
-    /// program that the flume run covers.
+    /// RMS difference of the two elevations, divided by the crest elevation of the flume model [-]. It is taken over
+    /// the times of the other program that lie within the flume run.
     pub relative_rms: f64,
 }
 
 impl Comparison {
     /// Compares `other`, from another program, with the flume model at a gauge. `still_level_m` is the still water
-    /// level z of `other` [m]. `None` if the two have no common time or the flume model has no crest at the gauge.
+    /// level z of `other` [m]. `None` if both series have no common time or the flume model has no crest at the gauge.
     pub fn new(record: &FlumeRecord, gauge: usize, other: &SurfaceSeries, still_level_m: f64) -> Option<Self> {
         let (flume_m, flume_s) = record.crest(gauge);
         let (top_m, crest_s) = other.crest();

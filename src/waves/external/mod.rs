@@ -7,6 +7,7 @@
 //! | [`velx`] | DualSPHysics: `_velx` files |
 //! | [`swash`] | SWASH: tables of water level and layer velocities |
 //! | [`openfoam`] | OpenFOAM: probes, sampled lines and `interfaceHeight` |
+//! | [`comparison`] | comparison of a surface level with the flume model at one gauge |
 //! | [`error`] | errors in the files of other programs |
 
 pub mod comparison;

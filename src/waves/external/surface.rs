@@ -53,7 +53,7 @@ impl SurfaceSeries {
         (top - 0.5 * slope * slope / curvature, time - slope / curvature)
     }
 
-    /// Levels z [m] at other times [s], linearly interpolated.
+    /// Levels z [m] at the given times [s], linearly interpolated.
     ///
     /// # Errors
     /// If a time is outside the series.

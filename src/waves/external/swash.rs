@@ -1,8 +1,8 @@
 //! SWASH tables: water level and layer velocities at one point over time.
 //!
 //! Example commands are `TABLE 'P' NOHEADER 'level.tbl' TSEC WATL OUTPUT 0 0.1 SEC` and
-//! `TABLE 'P' HEADER 'velocity.tbl' TSEC VELK OUTPUT 0 0.1 SEC`. The set `'P'` must have one point. The format follows
-//! the SWASH user manual (11.01A, sections 4.6.2 and 5.1) and source code:
+//! `TABLE 'P' HEADER 'velocity.tbl' TSEC VELK OUTPUT 0 0.1 SEC`. The point set `'P'` must have exactly one point. The
+//! format follows the SWASH user manual (11.01A, sections 4.6.2 and 5.1) and source code:
 //!
 //! | item | format |
 //! | --- | --- |
@@ -10,12 +10,13 @@
 //! | `HEADER` | lines that begin with `%`; one line has the short names of the columns, the next line their units |
 //! | `NOHEADER` | rows only |
 //! | short names | `Tsec`, `Watlev`; `Vksi` and `X-vel` are depth-averaged, `Vksi_k` and `X-vel_k` are per layer |
-//! | `VELK` | x component of every layer, then y of every layer; `VKSIK` has only x, along the grid |
+//! | `VELK` | x components of all layers, then y components of all layers |
+//! | `VKSIK` | velocity of every layer along the x direction of the grid, without y components |
 //! | layers | from the surface downwards; thicknesses relative to the depth (fixed thicknesses are not supported) |
 //! | `WATL` | water level [m]; 0 is still water, unless `SET LEVEL` or an input grid shifts the datum of the run |
 //!
 //! The number in a column name gives the layer; without numbers, the order of the columns gives the layer. The third
-//! form, `TABLE ... SWASH`, is rejected. Velocities are in m/s along x of SWASH.
+//! format, `TABLE ... SWASH`, is not supported. Velocities are in m/s along x of SWASH.
 
 mod columns;
 mod write;
@@ -44,7 +45,7 @@ pub struct TableFile<'a> {
 pub struct Tables<'a> {
     /// Table with `TSEC` and `WATL`.
     pub level: TableFile<'a>,
-    /// Table with `TSEC` and `VELK` or `VKSIK`; may be the same file as `level`.
+    /// Table with `TSEC` and `VELK` or `VKSIK`; can be the same file as `level`.
     pub velocity: TableFile<'a>,
     /// Layer thicknesses relative to the depth, from the surface downwards, as in `VERT`; empty if all are equal.
     pub layer_shares: &'a [f64],
@@ -55,7 +56,8 @@ pub struct Tables<'a> {
 /// `WATL` = 0 must be the still water level in the run of SWASH.
 ///
 /// # Errors
-/// If a file cannot be read, a column is missing, a line is wrong, or the values are implausible at the position.
+/// If a file cannot be read, a column is missing, a line is wrong, or the values fail the checks of
+/// [`VelocityTable::checked`].
 pub fn read(tables: &Tables, place: &Place) -> Result<VelocityTable, ExternalError> {
     let level = Table::read(&tables.level)?;
     let levels = level.column(Column::Watl)?.into_iter().map(|watl| place.still_water_z_m + watl).collect();
@@ -73,7 +75,7 @@ pub fn read(tables: &Tables, place: &Place) -> Result<VelocityTable, ExternalErr
         .checked(tables.velocity.path, place)
 }
 
-/// Layer thicknesses relative to the depth [-]: those of `tables`, or equal thicknesses if it has none.
+/// Layer thicknesses relative to the depth [-], from `tables`; equal thicknesses if `tables` has none.
 fn shares(tables: &Tables, layers: usize) -> Result<Vec<f64>, ExternalError> {
     if tables.layer_shares.is_empty() {
         return Ok(vec![1.0 / layers as f64; layers]);
@@ -174,7 +176,7 @@ mod tests {
         assert!(message(&level, &level).ends_with("no velocities; add VELK or VKSIK to the TABLE command"));
         let (_keep, level, velocity) = folder(Heading::None);
         assert!(message(&level, &velocity).ends_with(
-            "level.tbl: line 1: no header names the columns; list the columns in file order, or write with HEADER"
+            "level.tbl: line 1: no header with the column names; list the columns in file order, or write with HEADER"
         ));
     }
 

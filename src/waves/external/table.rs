@@ -5,15 +5,17 @@ use std::path::Path;
 
 use super::error::ExternalError;
 
-/// An interval of more than this many median intervals is a gap. One lost row gives 2; a restart without its first
-/// output gives a few.
+/// An interval between two times that is longer than this number of median intervals is a gap. One lost row makes an
+/// interval of 2 medians; a restart without its first output makes an interval of a few medians.
 const GAP: f64 = 5.0;
 
-/// Velocity over sqrt(g d) above which the unit must be wrong [-]; breaking crests stay below 2.
+/// Largest plausible velocity divided by sqrt(g d), where d is the still water depth [-]. This ratio stays below 2 in
+/// breaking crests; if it is above this limit, the unit in the file is wrong.
 const FASTEST: f64 = 3.0;
 
-/// Distance by which levels may lie outside the water, relative to the depth [-]: cells at the surface are partly
-/// filled, and an overturning crest is higher than a surface level computed from the volume of water.
+/// Largest allowed distance of a level from the water, relative to the still water depth [-]. It is not zero because
+/// cells at the surface are partly filled, and an overturning crest is higher than a surface level computed from the
+/// volume of water.
 const OUTSIDE: f64 = 0.1;
 
 /// Velocity along x over height and time at one position, from another program.
@@ -29,7 +31,7 @@ pub struct VelocityTable {
     pub velocities_m_s: Vec<Vec<f64>>,
 }
 
-/// Position of a table in the case, and the number of levels that the table must have.
+/// Bed, still water and gravity at the position of a table, and the number of levels that the table must have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     /// Bed level z [m].
@@ -62,8 +64,9 @@ impl VelocityTable {
     /// Returns the table read from `file` if its values are plausible at the position. Every reader calls this last.
     ///
     /// # Errors
-    /// If times do not increase or have a gap, a value is not finite, or the surface is below the bed. If levels do not
-    /// increase, are outside the water or too few, or a velocity is too high for the depth.
+    /// If times do not increase or have a gap, a value is not finite, or the surface is below the bed or more than one
+    /// depth above still water. Also if there are too few levels, levels do not increase or are outside the water, or
+    /// a velocity is too high for the depth.
     ///
     /// # Panics
     /// If the lists differ in shape, or the position has no water.
@@ -167,7 +170,7 @@ impl VelocityTable {
                 "check the unit: velocities must be in m/s",
             )
         } else {
-            let advice = "the run of the other program failed at this time; rerun it, or end the file before it";
+            let advice = "the run of the other program failed at this time; rerun it, or end the file before this time";
             ExternalError::moment(file, t, problem, advice)
         })
     }
@@ -224,7 +227,7 @@ mod tests {
 
     const PLACE: Place = Place { bed_z_m: 0.0, still_water_z_m: 1.0, gravity_m_s2: 9.81, layers: Layers::AtLeastTwo };
 
-    /// Two levels every 0.25 s.
+    /// Velocities at two levels, every 0.25 s.
     fn table(times: usize) -> VelocityTable {
         VelocityTable {
             times_s: (0..times).map(|i| 0.25 * i as f64).collect(),

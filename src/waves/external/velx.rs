@@ -1,4 +1,5 @@
-//! Conversion from and to DualSPHysics' `_velx` files ([`crate::waves::generation::velx`]), whose heights are levels z.
+//! Conversion from and to DualSPHysics' `_velx` files ([`crate::waves::generation::velx`]). Heights in these files are
+//! levels z.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -11,7 +12,7 @@ use crate::waves::generation::velx::{Velx, VelxError};
 /// Reads a `_velx` file.
 ///
 /// # Errors
-/// If the file cannot be read, a line is wrong, or the values are implausible at the position.
+/// If the file cannot be read, a line is wrong, or the values fail the checks of [`VelocityTable::checked`].
 pub fn read(path: &Path, place: &Place) -> Result<VelocityTable, ExternalError> {
     let unreadable = |reason: std::io::Error| ExternalError::Read {
         file: path.to_owned(),
@@ -35,7 +36,7 @@ impl VelocityTable {
     /// Creates the table from the `_velx` data read from `file`; the format has no surface level.
     ///
     /// # Errors
-    /// If the values are implausible at the position.
+    /// If the values fail the checks of [`VelocityTable::checked`].
     pub fn from_velx(velx: Velx, file: &Path, place: &Place) -> Result<Self, ExternalError> {
         let Velx { times_s, heights_m, velocities_m_s, .. } = velx;
         Self { times_s, surface_z_m: None, heights_m, velocities_m_s }.checked(file, place)

@@ -31,7 +31,8 @@ pub enum IncomingWave {
 }
 
 impl IncomingWave {
-    /// Creates a solitary wave whose front (1e-4 of its height) enters the flume at t = 0.
+    /// Creates a solitary wave that enters the flume at t = 0 with its front, where the elevation is 1e-4 of the
+    /// height.
     pub fn solitary(wave: ThirdOrderSolitary) -> Self {
         Self::Solitary { wave, crest_at_s: wave.half_length_m() / wave.celerity_m_s() }
     }
@@ -63,7 +64,7 @@ impl IncomingWave {
         }
     }
 
-    /// Maximum wave height [m]; for irregular waves twice the significant height, which 1 wave in 3,000 exceeds.
+    /// Maximum wave height [m]. For irregular waves: twice the significant wave height; 1 wave in 3,000 is higher.
     pub fn height_m(&self) -> f64 {
         match self {
             Self::Solitary { wave, .. } => wave.height_m,

@@ -1,4 +1,4 @@
-//! Cubic interpolation on unevenly spaced points, reduced to linear interpolation next to dry points.
+//! Cubic interpolation on unevenly spaced points; linear or constant next to dry points.
 
 use std::ops::Range;
 
@@ -11,8 +11,10 @@ pub(super) struct Stencil {
 }
 
 impl Stencil {
-    /// Creates the stencil for `x` among the increasing `xs`: a cubic through four usable points, else a straight line
-    /// through two. The stencil has one point if a neighbour of x is not usable or x is outside the range.
+    /// Creates the stencil for `x` among the increasing `xs`. `usable(index)` is false for points to leave out, such as
+    /// dry cells. The stencil is a cubic through four points. It is a straight line through two points if one of the
+    /// outer points is missing or not usable. It is a single point if a point next to x is not usable or x is outside
+    /// the range.
     pub(super) fn at(xs: &[f64], x: f64, usable: impl Fn(usize) -> bool) -> Self {
         let last = xs.len() - 1;
         let single = |first| Self { first, weights: [1.0, 0.0, 0.0, 0.0], points: 1 };
@@ -53,7 +55,7 @@ impl Stencil {
         self.first..self.first + self.points
     }
 
-    /// Weighted sum of `value(index)`.
+    /// Sum of `value(index)` over the points of the stencil, multiplied by their weights.
     pub(super) fn apply(&self, value: impl Fn(usize) -> f64) -> f64 {
         (0..self.points).map(|i| self.weights[i] * value(self.first + i)).sum()
     }

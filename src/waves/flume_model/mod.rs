@@ -4,9 +4,9 @@
 //! | --- | --- |
 //! | `run` | one run of the flume model, from a [`FlumeSetup`] to a record; the entry point of this module |
 //! | [`layered`] | K-layer non-hydrostatic flume model with its ends, friction and breaking |
-//! | [`incoming`] | any wave theory as an inflow at the left end of the flume |
+//! | [`incoming`] | incoming wave of any wave theory at the left end of the flume |
 //! | [`record`] | recorded gauges, surface profiles and flow, interpolated at any (x, z, t) |
-//! | `interpolation` | cubic interpolation next to dry points |
+//! | `interpolation` | cubic interpolation, linear or constant next to dry points |
 
 pub mod incoming;
 mod interpolation;

@@ -5,8 +5,8 @@ use super::interpolation::Stencil;
 use super::layered::{Column, SurfacePoint};
 use crate::geometry::profile::Profile;
 
-/// Depth below which a point counts as dry in interpolation [m]. In thinner films, the difference between the mean bed
-/// level of a cell and the profile at a corner would distort the result.
+/// Depth below which a point counts as dry in interpolation [m]. At a corner of the bed, the mean bed level of a cell
+/// differs from the profile; in thinner films this difference would distort the result.
 const FILM_M: f64 = 1e-3;
 
 /// Wave gauges, and the flow in a window (a range of x), recorded at a fixed interval.
@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn flow_is_interpolated_in_space_height_and_time() {
         let record = record();
-        // Linear fields and a parabola in height are exact to rounding.
+        // The interpolation of linear fields and of a parabola in height is exact to rounding.
         assert!((record.elevation(2.3, 1.1) - (0.23 + 0.22)).abs() < 1e-12);
         let depth = 1.0 + 0.23 + 0.22;
         let (u, w) = record.velocity(2.3, 0.6 * depth, 1.1);

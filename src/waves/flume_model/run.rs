@@ -14,7 +14,7 @@ use crate::waves::theory::solitary::SolitaryWave;
 /// Largest number of layers; two or three resolve the vertical profile of long waves.
 pub const MAX_LAYERS: usize = 8;
 /// Courant number of a long wave in the largest depth [-]. The scheme is stable up to 1. Up to about 0.4, the errors of
-/// the time step are smaller than those of the grid.
+/// the time step are smaller than the errors of the grid.
 const COURANT: f64 = 0.4;
 /// Length over which the cells follow the piston, in strokes. At this length, no cell is compressed by more than 10 %.
 const MAPPED_STROKES: f64 = 10.0;
@@ -188,7 +188,7 @@ fn check(setup: &FlumeSetup) -> Result<(), FlumeError> {
     let highest = 0.7 * depth;
     let allowed = format!("at most {highest} (0.7 of the depth); higher solitary waves break");
     require("the wave's height_m", height, height <= highest, &allowed)?;
-    // The still water level of a laboratory flume is accurate to about a millimetre.
+    // A difference of 1 mm is allowed: the still water level of a laboratory flume is not known more accurately.
     let is_same = (setup.wave.depth_m() - depth).abs() <= 1e-3;
     require("the wave's depth_m", setup.wave.depth_m(), is_same, &format!("{depth}, the depth at the wavemaker"))?;
     check_right_end_and_friction(setup, length)?;
@@ -313,7 +313,8 @@ mod tests {
     #[test]
     fn solitary_wave_doubles_at_the_end_wall_and_reflects() {
         let record = run(&setup()).unwrap();
-        // Second-order run-up of a solitary wave on a wall: 2H + H^2 / 2d = 2.04 H. The generated wave is within 1 %.
+        // The second-order run-up of a solitary wave on a wall is 2 H + H^2 / (2 d) = 2.04 H. The height of the
+        // generated wave is within 1 % of H.
         assert!((record.crest(1).0 / 0.04 - 2.04).abs() < 0.03, "{}", record.crest(1).0 / 0.04);
         assert!(record.volume_error < 1e-12);
         let back = (record.crest(1).1 / 0.05) as usize;
@@ -327,7 +328,7 @@ mod tests {
     fn piston_completes_its_stroke() {
         let record = run(&FlumeSetup { end_s: 8.0, ..setup() }).unwrap();
         let stroke = record.paddle_m.last().unwrap();
-        // The motion is truncated where 1 - tanh = 1e-3.
+        // The motion stops at the phase where 1 - tanh = 1e-3, so the stroke is 0.1 % shorter than in theory.
         assert!((stroke / setup().wave.stroke_m() - 1.0).abs() < 2e-3);
     }
 

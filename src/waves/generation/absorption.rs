@@ -6,8 +6,8 @@
 //! U = -(eta_in + eta_out) u/eta, with u/eta = sqrt(g/d) for long waves, makes eta_out = eta_in + U eta/u = 0.
 //!
 //! Waves travel from the gauge to the piston in the time a. Therefore the gauge measures eta_in too early and eta_out
-//! too late by a. Readings scatter by 1/20 of the particle spacing and are smoothed:
-//! tau y' = eta_in(t + a) + eta_out(t - a) - y. For slow waves and eta_out = eta_in - y this becomes
+//! too late by a. The readings scatter by about 1/20 of the particle spacing. They are smoothed to y with the time
+//! constant tau: tau y' = eta_in(t + a) + eta_out(t - a) - y. For slow waves and eta_out = eta_in - y this becomes
 //! y + (tau - a) y' / 2 = eta_in, which has no lag for tau = a. The loop is stable for any a, because the coefficient
 //! of the delayed term is not larger than the coefficient of y.
 
@@ -26,9 +26,10 @@ pub struct Absorption {
     pub travel_time_s: f64,
     /// Depth-mean velocity of the water per surface elevation, u/eta [1/s].
     pub velocity_per_elevation: f64,
-    /// Largest displacement that absorption may add to the generating motion, seaward or shoreward [m].
+    /// Limit of the displacement that absorption adds to the generating motion, seaward or shoreward [m].
     pub max_displacement_m: f64,
     /// Time constant with which the added displacement decays to zero [s]; it prevents drift in periodic waves.
+    /// `None` if the displacement does not decay.
     pub return_time_s: Option<f64>,
 }
 
@@ -76,7 +77,8 @@ impl Absorption {
         }
     }
 
-    /// Advances the state by `dt` [s]; `excess_m` is the measured elevation minus that of the generated wave [m].
+    /// Advances the state by `dt` [s]; `excess_m` is the measured elevation minus the elevation of the
+    /// generated wave [m].
     pub fn advance(&self, state: &mut AbsorptionState, excess_m: f64, dt: f64) {
         state.excess_m += (1.0 - (-dt / self.travel_time_s).exp()) * (excess_m - state.excess_m);
         let return_velocity = self.return_time_s.map_or(0.0, |time| state.displacement_m / time);
@@ -114,9 +116,10 @@ mod tests {
             out.push(incoming(t) + state.velocity_m_s / 5.0);
         }
         let largest = out.iter().fold(0.0_f64, |most, eta| most.max(eta.abs()));
-        // The second-order residual is a^2 eta'' / 4, 4.5 % of this crest; higher orders raise it to 5.2 %.
+        // The residual of second order, a^2 eta'' / 4, is 4.5 % of the height of this wave; terms of higher order raise
+        // it to 5.2 %.
         assert!(largest < 0.06 * 0.03, "{}", largest / 0.03);
-        // The piston has retreated by u/eta times the integral of the elevation over time: 5 (2/3) 0.03.
+        // The piston has retreated by u/eta times the integral of the elevation over time: 5 (2/3) 0.03 = 0.1 m.
         assert!((state.displacement_m + 0.1).abs() < 0.002);
     }
 

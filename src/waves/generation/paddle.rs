@@ -76,7 +76,7 @@ impl PaddleMotion {
 pub struct Paddle {
     rest_x_m: f64,
     row_heights_m: Vec<f64>,
-    /// Displacement of each row over the displacement at still water level [-].
+    /// Displacement of each row, divided by the displacement at still water level [-].
     relative_displacements: Vec<f64>,
     motion: PaddleMotion,
     absorption: Option<Absorption>,
@@ -162,7 +162,8 @@ mod tests {
     #[test]
     fn flap_rows_move_in_proportion_to_their_height_above_the_hinge() {
         let rows: Vec<[f64; 2]> = paddle(PaddleShape::Flap { hinge_m: 0.2 }).rows_at(4.1).collect();
-        // Hinge at z = 1.2 m, still water level at 1.4 m.
+        // The hinge is at z = 1.2 m, the still water level at 1.4 m. The shares below are
+        // displacements of the rows divided by the displacement at still water level.
         for (row, share) in rows.iter().zip([0.0, 0.5, 1.0, 2.0]) {
             for k in 0..2 {
                 assert!((row[k] - share * rows[2][k]).abs() < 1e-15);

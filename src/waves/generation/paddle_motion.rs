@@ -1,7 +1,7 @@
 //! Motion of a wave paddle that generates regular waves.
 //!
 //! * Biesel & Suquet (1951), in the form of Dean & Dalrymple (1984), section 6.3: small waves in front of a paddle that
-//!   moves by S f(z) / 2 sin(omega t), with f = 1 at still water level.
+//!   moves by S f(z) / 2 sin(omega t), with the stroke S and f = 1 at still water level.
 //! * Madsen (1971), "On the generation of long waves": a piston motion at twice the wave frequency generates a
 //!   second-order wave of permanent form. Without this motion, the piston also generates a slower free wave of twice
 //!   the frequency.
@@ -25,8 +25,8 @@ pub enum PaddleShape {
 }
 
 impl PaddleShape {
-    /// Displacement at `z` [m] above the bed over the displacement at still water level [-]; `depth` is the water depth
-    /// [m].
+    /// Displacement at `z` [m] above the bed, divided by the displacement at still water level [-]; `depth` is the
+    /// water depth [m].
     pub fn relative_displacement(&self, z: f64, depth: f64) -> f64 {
         match *self {
             Self::Piston => 1.0,
@@ -53,7 +53,7 @@ impl PaddleShape {
     }
 }
 
-/// Motion of a paddle that generates regular waves, at still water level.
+/// Motion, at still water level, of a paddle that generates regular waves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RegularMotion {
     /// Angular frequency [rad/s].
@@ -93,8 +93,8 @@ impl RegularMotion {
         self.first_m + self.second_m.abs()
     }
 
-    /// Displacement r(t) (S/2 sin omega t + X2 sin 2 omega t) [m], t [s] from the start. A crest passes the paddle when
-    /// sin omega t crosses zero upwards.
+    /// Displacement r(t) (S/2 sin omega t + X2 sin 2 omega t) [m] at t [s] from the start, with the ramp r, the stroke
+    /// S and the second-order amplitude X2. A crest passes the paddle when sin omega t crosses zero upwards.
     pub fn displacement_m(&self, t: f64) -> f64 {
         self.ramp(t)[0] * self.full_motion(t)[0]
     }
@@ -173,7 +173,8 @@ mod tests {
         let k = 0.01 / DEPTH;
         assert!((PaddleShape::Piston.height_per_stroke(k, DEPTH) / 0.01 - 1.0).abs() < 1e-4);
         assert!((flap.height_per_stroke(k, DEPTH) / 0.005 - 1.0).abs() < 1e-4);
-        // In deep water only the motion at the surface matters; the first correction for a flap is -1/kd.
+        // In deep water only the motion at the surface matters; a flap has the additional factor
+        // 1 - 1/kd.
         let k = 20.0 / DEPTH;
         assert!((PaddleShape::Piston.height_per_stroke(k, DEPTH) - 2.0).abs() < 1e-12);
         assert!((flap.height_per_stroke(k, DEPTH) - 2.0 * (1.0 - 1.0 / 20.0)).abs() < 1e-6);
@@ -187,7 +188,7 @@ mod tests {
         let shapes = [-0.3, 0.0, 0.13].map(|hinge_m| PaddleShape::Flap { hinge_m });
         for shape in shapes.into_iter().chain([PaddleShape::Piston]) {
             for k in [0.3, 3.245, 9.0] {
-                // Midpoint rule with n intervals; the kink at the hinge causes a relative error of 1e-7.
+                // The midpoint rule with n intervals has a relative error of 1e-7, because of the kink at the hinge.
                 let n = 4000;
                 let interval = |i: i32| {
                     let z = DEPTH * (f64::from(i) + 0.5) / f64::from(n);
@@ -204,7 +205,8 @@ mod tests {
     #[test]
     fn second_order_motion_follows_the_water_in_shallow_water() {
         // In shallow water dX/dt = c eta / (d + eta) at the piston. With Stokes' second-order elevation, expansion in
-        // a/d and kd gives X2 = (a^2 / 2 k d^2) (3 / (2 kd)^2 - 1/2); the next term is smaller by (kd)^2.
+        // a/d and kd gives X2 = (a^2 / 2 k d^2) (3 / (2 kd)^2 - 1/2); each further term in the brackets is
+        // smaller by (kd)^2.
         let (height, kd) = (1e-3, 0.2);
         let (a, k) = (0.5 * height, kd / DEPTH);
         let expected = a * a / (2.0 * k * DEPTH * DEPTH) * (3.0 / (4.0 * kd * kd) - 0.5);
@@ -221,10 +223,11 @@ mod tests {
         for i in 1..100 {
             let t = 0.0317 * f64::from(i);
             let slope = (motion.displacement_m(t + h) - motion.displacement_m(t - h)) / (2.0 * h);
-            // Error of the central difference: h^2 X''' / 6 is below 1e-9.
+            // The error of the central difference, h^2 X''' / 6, is below 1e-9 m/s.
             assert!((slope - motion.velocity_m_s(t)).abs() < 1e-8);
         }
-        // The velocity has no jump at the end of the ramp: the acceleration is at most 4 m/s2.
+        // The velocity has no jump at the end of the ramp. It changes by less than 8 h within the time 2 h, because the
+        // acceleration is at most 4 m/s2.
         let end = 1.5 * 1.2;
         assert!((motion.velocity_m_s(end + h) - motion.velocity_m_s(end - h)).abs() < 8.0 * h);
         let largest = (0..2000).map(|i| motion.displacement_m(0.005 * f64::from(i)).abs()).fold(0.0, f64::max);

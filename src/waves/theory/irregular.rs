@@ -1,10 +1,11 @@
 //! Irregular waves: a first-order JONSWAP sea with random phases.
 //!
 //! Hasselmann et al. (1973): S(f) ~ f^-5 exp(-1.25 (f_p/f)^4) gamma^a, a = exp(-(f - f_p)^2 / (2 s^2 f_p^2)), s = 0.07
-//! below the peak and 0.09 above; scaled so that H_s = 4 sqrt(m_0). The surface is a sum of waves with the amplitude
-//! sqrt(2 S df), evenly spaced in frequency, with random phases; it repeats after 1/df. Velocities follow linear theory
-//! with Wheeler (1970) stretching. The sum has no bound long waves, because the nonlinear flume model generates them.
-//! The flume model also generates spurious free long waves, which second-order wave generation would suppress.
+//! below the peak frequency f_p and 0.09 above. S is scaled so that H_s = 4 sqrt(m_0), where m_0 is the integral of S.
+//! The surface is a sum of waves with the amplitude sqrt(2 S df), spaced by df in frequency, with random phases; it
+//! repeats after 1/df. Velocities follow linear theory with Wheeler (1970) stretching. The sum has no bound long waves,
+//! because the nonlinear flume model generates them. The flume model also generates spurious free long waves, which
+//! second-order wave generation would suppress.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +14,8 @@ use crate::random::SplitMix64;
 
 /// Lowest and highest f / f_p of the wave components [-]; 1 to 2 % of the spectral energy lies outside.
 const BAND: [f64; 2] = [0.6, 3.0];
-/// Largest number of wave components; the flume model evaluates all of them at every time step.
+/// Largest number of wave components; it limits the run time, because the flume model evaluates all components at every
+/// time step.
 const MAX_COMPONENTS: usize = 5000;
 
 /// Parameters of a JONSWAP sea.
@@ -23,7 +25,8 @@ pub struct JonswapSea {
     pub significant_height_m: f64,
     /// Peak period T_p [s].
     pub peak_period_s: f64,
-    /// Peak enhancement factor gamma [-]; 3.3 on average, 1 gives the spectrum of Pierson & Moskowitz (1964).
+    /// Peak enhancement factor gamma [-]: 3.3 is the mean of measured seas, 1 gives the spectrum of Pierson & Moskowitz
+    /// (1964).
     pub peak_enhancement: f64,
     /// Still water depth d [m].
     pub depth_m: f64,
@@ -69,7 +72,7 @@ impl IrregularWave {
         let components = shapes.iter().enumerate().map(|(i, shape)| {
             let angular_frequency = TAU * (first + i) as f64 * df;
             Component {
-                // a^2 / 2 = S df.
+                // The amplitude a of a component follows from a^2 / 2 = S df.
                 amplitude: (2.0 * scale * shape).sqrt(),
                 angular_frequency,
                 wavenumber: linear_wavenumber_per_m(angular_frequency, sea.depth_m, sea.gravity),
@@ -130,7 +133,8 @@ fn check(sea: &JonswapSea) -> Result<(), WaveError> {
     if !(shortest..=longest).contains(&sea.repeat_s) {
         return refuse("repeat_s", sea.repeat_s, format!("from {shortest} (20 peak periods) to {longest}"));
     }
-    // The highest of 3,000 waves is twice the significant height, and a solitary wave breaks at 0.8 of the depth.
+    // The highest of 3,000 waves is twice as high as the significant height. A solitary wave breaks at 0.8 of the
+    // depth, so the limit of the significant height is 0.4 of the depth.
     let highest = 0.4 * sea.depth_m;
     if sea.significant_height_m > highest {
         return refuse(
@@ -181,7 +185,7 @@ mod tests {
 
     #[test]
     fn long_components_have_long_wave_velocities() {
-        // One wave of k d = 0.05: u = sqrt(g/d) a within (k d)^2 = 0.25 %.
+        // For a wave with k d = 0.05 and the amplitude a, u = sqrt(g/d) a within (k d)^2 = 0.25 %.
         let wave = Component { amplitude: 0.01, angular_frequency: 0.175, wavenumber: 0.0625, phase: 0.0 };
         let u = wave.velocity(0.4, 0.8, 0.0);
         assert!((u / (0.01 * (9.81f64 / 0.8).sqrt()) - 1.0).abs() < 2.5e-3, "{u}");

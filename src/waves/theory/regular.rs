@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn breaking_height_follows_miche() {
-        // Deep water, T = 1.2 s: 0.142 g T^2 / 2 pi.
+        // In deep water with T = 1.2 s, waves break at the height 0.142 g T^2 / (2 pi).
         let deep = RegularWave { depth_m: 50.0, ..WAVE };
         assert!((deep.breaking_height_m() - 0.142 * 9.81 * 1.44 / TAU).abs() < 1e-9);
         assert!(WAVE.is_second_order() && !RegularWave { period_s: 6.0, ..WAVE }.is_second_order());
@@ -148,7 +148,8 @@ mod tests {
 
     #[test]
     fn highest_wave_has_the_solitary_and_deep_water_limits() {
-        // Solitary wave: 0.8332. Deep water: H/L = 0.141, the first coefficient of the fit.
+        // The limit of a solitary wave is H/d = 0.8332. The limit in deep water is H/L = 0.141, the first coefficient
+        // of the fit.
         assert!((max_height_over_depth(1e6) - 0.8332).abs() < 1e-3);
         assert!((max_height_over_depth(1e-3) / 1e-3 - 0.141).abs() < 1e-3);
     }

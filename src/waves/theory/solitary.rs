@@ -7,8 +7,8 @@
 
 /// Number of Newton iterations for the phase. The initial guess is within 1e-2; five iterations reach rounding error.
 const NEWTON_STEPS: usize = 5;
-/// Phase at which the piston starts (-) and stops (+). The elevation there is sech^2(3.8) = 0.002 of the crest
-/// elevation.
+/// The piston starts at minus this phase and stops at plus this phase. The elevation there is sech^2(3.8) = 0.002 of
+/// the crest elevation.
 const END_PHASE: f64 = 3.8;
 
 /// Wave theory for the piston motion.
@@ -34,7 +34,8 @@ pub struct SolitaryWave {
 }
 
 impl SolitaryWave {
-    /// Outskirt (decay) coefficient k [1/m]: Boussinesq sqrt(3H / 4d^3), Rayleigh sqrt(3H / 4d^2(d+H)).
+    /// Outskirt (decay) coefficient k [1/m]: sqrt(3 H / (4 d^3)) by Boussinesq, sqrt(3 H / (4 d^2 (d + H))) by
+    /// Rayleigh.
     pub fn outskirt_per_m(&self) -> f64 {
         let (height, d) = (self.height_m, self.depth_m);
         match self.theory {
@@ -80,8 +81,8 @@ impl SolitaryWave {
         self.depth_m * u / (self.celerity_m_s() - u)
     }
 
-    /// Phase theta at the piston, from -3.8 to 3.8 over the stroke: the root, by Newton's method, of
-    /// theta + (H/d) tanh theta = k c (t - T/2). (The end values agree only to 1e-4, because tanh 3.8 = 0.999.)
+    /// Phase theta at the piston, from -3.8 to 3.8 over the stroke. Newton's method solves
+    /// theta + (H/d) tanh theta = k c (t - T/2). (theta reaches 3.8 only to 1e-4, because tanh 3.8 = 0.999.)
     fn phase(&self, t: f64) -> f64 {
         let e = self.height_m / self.depth_m;
         let right = self.outskirt_per_m() * self.celerity_m_s() * (t - 0.5 * self.duration_s());
@@ -164,8 +165,8 @@ mod tests {
 
     #[test]
     fn outskirt_celerity_stroke_and_duration_match_values_calculated_by_hand() {
-        // Depth 0.8 m. H; k of Boussinesq and Rayleigh; c; S of both; T of Boussinesq. Tolerance: half a unit of the
-        // last digit.
+        // Columns, for the depth 0.8 m: H; k by Boussinesq; k by Rayleigh; c; S by Boussinesq; S by Rayleigh; T by
+        // Boussinesq. Tolerance: half a unit of the last digit.
         let table = [
             (0.026, 0.19516, 0.19206, 2.8466, 0.3331, 0.3384, 13.80),
             (0.045, 0.25674, 0.24982, 2.8791, 0.4382, 0.4503, 10.43),
@@ -185,13 +186,14 @@ mod tests {
         for theory in [PistonTheory::Boussinesq, PistonTheory::Rayleigh] {
             let w = wave(0.064, theory);
             let end = w.duration_s();
-            // The motion is truncated at theta = 3.8, where 1 - tanh = 1e-3.
+            // The motion stops at theta = 3.8, where 1 - tanh theta = 1e-3, so the stroke is 0.1 % shorter than in
+            // theory.
             assert!((w.piston_displacement_m(end) / w.stroke_m() - 1.0).abs() < 2e-3);
             assert_eq!(w.piston_displacement_m(0.0), 0.0);
             for i in 1..20 {
                 let (t, h) = (end * f64::from(i) / 20.0, 1e-4);
                 let slope = (w.piston_displacement_m(t + h) - w.piston_displacement_m(t - h)) / (2.0 * h);
-                // Error of the central difference: h^2 X''' / 6 is below 1e-8.
+                // The error of the central difference, h^2 X''' / 6, is below 1e-8 m/s.
                 assert!((slope - w.piston_velocity_m_s(t)).abs() < 1e-7);
             }
             assert_eq!(w.piston_velocity_m_s(end + 1.0), 0.0);
@@ -202,7 +204,7 @@ mod tests {
     fn third_order_wave_has_its_height_and_the_exact_celerity() {
         let w = ThirdOrderSolitary { height_m: 0.064, depth_m: 0.8, gravity: 9.81 };
         assert!((w.elevation_m(0.0) - 0.064).abs() < 1e-12);
-        // Exact Froude numbers c / sqrt(g d); the third-order theory is accurate to 1e-5 at these heights.
+        // The exact Froude numbers are c / sqrt(g d). Third-order theory is accurate to 1e-5 at these heights.
         for (height_m, froude) in [(0.026, 1.016093), (0.045, 1.027659), (0.064, 1.039065)] {
             let c = ThirdOrderSolitary { height_m, ..w }.celerity_m_s();
             assert!((c / (9.81f64 * 0.8).sqrt() - froude).abs() < 1e-5);

@@ -9,8 +9,9 @@
 //! psi = - Q and (u^2 + v^2) / 2 + Y = R on the surface
 //! ```
 //!
-//! The surface conditions hold at N + 1 points from crest to trough. Mean depth, height, period and mean flow complete
-//! the 2 N + 6 equations. Newton's method solves them for a low wave first and then for increasing heights.
+//! The surface conditions hold at N + 1 points from crest to trough, where N is the number of coefficients B_j. Mean
+//! depth, height, period and mean flow complete the 2 N + 6 equations. Newton's method solves them for a low wave first
+//! and then for increasing heights.
 
 use std::f64::consts::{PI, TAU};
 
@@ -23,9 +24,9 @@ use equations::{SteadyWave, solve};
 const HEIGHT_GROWTH: f64 = 1.25;
 /// Largest Ursell number H L^2 / d^3 of the first, lowest wave [-]. A wave below this limit is nearly a cosine.
 const FIRST_URSELL: f64 = 4.0;
-/// Largest height of the first, lowest wave over the depth [-].
+/// Largest height of the first, lowest wave, divided by the depth [-].
 const FIRST_HEIGHT: f64 = 0.02;
-/// Limit of the wavelength over the depth [-]. The crests of longer waves are practically solitary waves.
+/// Limit of the wavelength, divided by the depth [-]. The crests of longer waves are practically solitary waves.
 const MAX_WAVELENGTH: f64 = 60.0;
 
 /// A solution of stream function wave theory in SI units.
@@ -35,9 +36,9 @@ pub struct StreamFunctionWave {
     wavenumber: f64,
     celerity: f64,
     mean_velocity: f64,
-    /// E_j [m], with elevation = sum E_j cos(j X).
+    /// Coefficients E_j [m] from j = 0, with elevation = sum E_j cos(j X).
     elevation: Vec<f64>,
-    /// j k B_j from j = 1 [m/s].
+    /// Coefficients j k B_j [m/s] from j = 1.
     velocity: Vec<f64>,
 }
 
@@ -112,7 +113,8 @@ impl StreamFunctionWave {
     }
 }
 
-/// Checks the ranges of the parameters. Returns the wavelength of linear theory over the depth [-].
+/// Checks the ranges of the parameters. Returns the wavelength of linear theory, divided by the
+/// depth [-].
 fn check(wave: &RegularWave) -> Result<f64, WaveError> {
     for (name, value) in
         [("height_m", wave.height_m), ("period_s", wave.period_s), ("depth_m", wave.depth_m), ("gravity", wave.gravity)]
@@ -125,8 +127,8 @@ fn check(wave: &RegularWave) -> Result<f64, WaveError> {
             format!("short enough for a wavelength below {MAX_WAVELENGTH} depths (linear theory: {length:.1})");
         return Err(WaveError::Value { name: "period_s", value: wave.period_s, allowed });
     }
-    // A high wave is up to 20 % longer than a linear wave, so it can be higher. Newton's method detects other breaking
-    // waves.
+    // A high wave is up to 20 % longer than in linear theory, so the limit is taken for 1.2 times the linear
+    // wavelength. For breaking waves below this limit, Newton's method does not converge.
     let highest = max_height_over_depth(1.2 * length) * wave.depth_m;
     if wave.height_m >= highest {
         let allowed = format!("below {highest:.4}, where waves of this period and depth break");
@@ -182,10 +184,10 @@ mod tests {
     fn low_wave_is_linear() {
         let w = wave(1e-4, 2.02, 0.4, MeanFlow::NoCurrent);
         let k = linear_wavenumber_per_m(TAU / 2.02, 0.4, 9.81);
-        // Corrections are of order (H/d)^2 (1/kd)^4 = 1e-6.
+        // Nonlinear corrections of k are of order (H/d)^2 / (kd)^4 = 1e-6.
         assert!((w.wavenumber_per_m() / k - 1.0).abs() < 1e-5);
         let u = 0.5e-4 * TAU / 2.02 / (k * 0.4).tanh();
-        // The second harmonic is H/d (kd)^-2 = 4e-4 of the first.
+        // The second harmonic, divided by the first, is of order (H/d) / (kd)^2 = 6e-4.
         assert!((w.velocity_m_s(0.0, 0.0) / u - 1.0).abs() < 1e-3);
     }
 
@@ -206,7 +208,7 @@ mod tests {
         for (height, period, depth) in [(0.08, 1.0, 0.5), (0.15, 1.5, 1.0), (0.1, 1.2, 2.0)] {
             let w = wave(height, period, depth, MeanFlow::NoCurrent);
             let expected = stokes_celerity(w.wavenumber_per_m(), height, depth);
-            // The next term is e^6, at most 2e-4 here.
+            // The next term of the series is of order e^6; here it is below 2e-4.
             assert!((w.celerity_m_s() / expected - 1.0).abs() < 2e-4, "{} {expected}", w.celerity_m_s());
             assert!((w.elevation_m(0.0) - w.elevation_m(PI) - height).abs() < 1e-9);
         }
@@ -214,13 +216,14 @@ mod tests {
 
     #[test]
     fn long_wave_travels_as_a_solitary_wave_over_its_trough() {
-        // At Ursell number 150 the crest is a solitary wave on the depth of the trough, whose celerity is known.
+        // At the Ursell number 150, the crest behaves like a solitary wave in water as deep as under the trough. The
+        // celerity of such a solitary wave is known.
         let w = wave(0.08, 14.0, 1.0, MeanFlow::NoCurrent);
         let trough = 1.0 + w.elevation_m(PI);
         let e = 0.08 / trough;
         let solitary = (9.81 * trough * (1.0 + e - e * e / 20.0 - 3.0 * e.powi(3) / 70.0)).sqrt();
         let over_trough = w.celerity_m_s() - w.velocity_m_s(PI, -0.5);
-        // The trough is level only for infinitely long waves; here 1e-2 of the height remains between the crests.
+        // The limit is 1e-3, not zero, because the trough is exactly level only for infinitely long waves.
         assert!((over_trough / solitary - 1.0).abs() < 1e-3, "{over_trough} {solitary}");
     }
 
@@ -237,7 +240,7 @@ mod tests {
                 transport += w.velocity_m_s(phase, z) * depth / f64::from(rows * phases);
             }
         }
-        // Error of the midpoint rule over 100 rows: 1e-5 of H sqrt(g d) / 2 = 0.1.
+        // Limit 1e-6 m2/s: the error of the midpoint rule with 100 rows is 1e-5 of H sqrt(g d) / 2 = 0.1 m2/s.
         assert!(transport.abs() < 1e-6, "{transport}");
         assert!(w.mean_velocity < 0.0);
     }

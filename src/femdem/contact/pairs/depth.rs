@@ -5,9 +5,9 @@ use crate::femdem::assembly::tets::Tets;
 
 impl Contacts {
     /// Returns the pair with the deepest overlap in the last time step, and the relative depth of this overlap [-].
-    /// Relative depth: overlap energy without its initial part, over penalty and volume of the smaller tetrahedron. It
-    /// is 1/2 for identical tetrahedra, up to 5/4 for a tetrahedron inside the other one, and about 1e-3 for a contact
-    /// at the strength of concrete.
+    /// The relative depth is (I - I_b) / V, with the integrals I and I_b of [`super`] and the volume V of the smaller
+    /// tetrahedron. It is 1/2 for identical tetrahedra and up to 5/4 for a tetrahedron inside the other one. It is of
+    /// the order of 1e-3 or less if the contact stress equals the strength of concrete.
     pub fn deepest_overlap(&self, tets: &Tets) -> Option<([u32; 2], f64)> {
         let volume = |tet: u32| tets.shape[tet as usize].volume;
         let share = |pair: &super::Pair| {

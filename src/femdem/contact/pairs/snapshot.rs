@@ -7,7 +7,8 @@ use super::{ContactScalars, Contacts, Pair};
 use crate::femdem::assembly::tets::Tets;
 use crate::femdem::setup::Setup;
 
-/// History of the contacts of a world. It does not list the tetrahedra that can touch; the broken faces determine them.
+/// History of the contacts of a world. It does not list the tetrahedra that can touch, because the setup and the broken
+/// faces determine them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactSnapshot {
     /// Tetrahedra of each pair, the pairs in ascending order.
@@ -42,7 +43,8 @@ impl Contacts {
         }
     }
 
-    /// Restores the history into new contacts whose groups are up to date. `open` are the tetrahedra with broken faces.
+    /// Restores the history into new contacts. Their groups of node copies must already match the broken faces. `open`
+    /// are the tetrahedra with broken faces.
     ///
     /// # Errors
     /// If the snapshot does not belong to this world. The text gives the reason.

@@ -12,7 +12,8 @@ fn pair(inherited_energy: f64) -> Pair {
     Pair { tets, penalty, law, initial_overlap, inherited_energy, spring: None, forces: None, stored, dissipated }
 }
 
-/// Two overlapping tetrahedra of about 1 cm. `further` [m] is an additional displacement that increases the overlap.
+/// Returns two overlapping tetrahedra of about 1 cm. `further` [m] is an additional displacement of the second one that
+/// increases the overlap.
 fn corners(further: f64) -> [[DVec3; 4]; 2] {
     let one = regular_tetrahedron(DVec3::ZERO, 0.01);
     let shift = DVec3::new(6e-3, 1e-3, -2e-3) - further * DVec3::X;
@@ -29,11 +30,11 @@ fn a_new_pair_stores_the_elastic_energy_of_its_broken_joint() {
     for energy in [0.0, 1e-4, 1e-2] {
         let mut pair = pair(energy);
         pair.evaluate(corners(0.0), || STILL);
-        // Tolerance: rounding, relative to the overlap energy of a few joules.
+        // Tolerance: rounding of the energy of the whole overlap, a few joules.
         assert!((pair.stored - energy).abs() < 1e-12 && (pair.inherited_energy - energy).abs() < 1e-12, "{pair:?}");
         assert_eq!(pair.forces.is_some(), energy > 0.0);
     }
-    // The joint has more energy than the overlap can store. The excess is dissipated.
+    // Here the joint has more energy than the overlap can store. The excess is dissipated.
     let mut excess = pair(1e3);
     excess.evaluate(corners(0.0), || STILL);
     assert!(excess.stored < 1e3 && (excess.inherited_energy - excess.stored).abs() < 1e-12);
@@ -46,7 +47,7 @@ fn half_a_time_step_earlier_the_pair_had_the_energy_of_the_joint() {
     let moves = [[DVec3::ZERO; 4], [-way * DVec3::X; 4]];
     let mut pair = pair(1e-2);
     pair.evaluate(corners(0.0), || moves);
-    // The current force acts for half of the time step. Tolerance: rounding of the energy of the whole overlap.
+    // The work of the current force over half a time step. Tolerance: rounding of the energy of the whole overlap.
     let work = force_x(&pair) * 0.5 * way;
     assert!((pair.stored - work - 1e-2).abs() < 1e-9 && (pair.inherited_energy - 1e-2).abs() < 1e-9, "{pair:?}");
 }
@@ -63,13 +64,14 @@ fn the_force_rises_from_zero_and_is_the_gradient_of_the_energy() {
         (fresh.stored, force_x(&fresh), force_x(&full))
     };
     let (_, small, whole) = evaluate_at(1e-9);
-    // The displacement is 1e-9 m, the overlap about 1e-3 m deep: a millionth of the force of the whole overlap.
+    // The displacement of 1e-9 m is a millionth of the overlap depth of about 1e-3 m. The force is therefore about a
+    // millionth of the force of the whole overlap.
     assert!(small > 0.0 && small < 1e-5 * whole, "{small:.3e} of {whole:.3e} N");
     for further in [1e-6, 1e-5, 1e-4] {
         let step = 1e-3 * further;
         let [before, (_, force, _), after] = [further - step, further, further + step].map(&mut evaluate_at);
         let slope = (after.0 - before.0) / (2.0 * step);
-        // Tolerance: central differences over a thousandth of the displacement.
+        // Tolerance: error of central differences over a thousandth of the displacement.
         assert!((force / slope - 1.0).abs() < 1e-5, "{further}: {force:.6e} {slope:.6e}");
     }
 }

@@ -1,5 +1,5 @@
 //! Units of measurement for the forces and areas of a table, chosen by the largest value. For example, impact forces
-//! are meganewtons on an armour unit of 40 t, but newtons on a model unit in the flume.
+//! are shown in meganewtons for an armour unit of 40 t, but in newtons for a model unit in the flume.
 
 /// A unit of measurement, such as kN.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -33,7 +33,7 @@ fn introduction(breakage: &Breakage) -> String {
     } else {
         format!("At prototype scale, {} times the size of the run", short(breakage.scale, 3))
     };
-    // These units are listed, because a deep crack may split the unit after the end of the fracture run.
+    // The report mentions these units, because a deep crack may split a unit after the end of the fracture run.
     let cracked = count(|unit| unit.broken == Some(false) && unit.crack_area_m2 > Some(0.0));
     let cracked = match cracked {
         0 => String::new(),

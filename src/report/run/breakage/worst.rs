@@ -16,7 +16,7 @@ pub fn worst(breakage: &Breakage, run: &RunFolder) -> String {
         if impact.partner.is_some() { partner(impact) } else { format!("the {}", partner(impact)) },
         short(impact.t_s, 3),
         if largest_area_and_stress(impact)[0] > 0.0 {
-            "It has the largest crack area."
+            "This impact has the largest crack area in one unit."
         } else {
             "No unit cracked; this impact has the largest \u{3c3}\u{2081}."
         }
@@ -24,7 +24,7 @@ pub fn worst(breakage: &Breakage, run: &RunFolder) -> String {
     let pictures = match pictures_of_impact_and_end(&run.dir.join(FOLDER).join(&impact.name)) {
         Ok(Some(pictures)) => pictures,
         Ok(None) => "<p>No pictures of this impact: its folder has no surface files.</p>\n".to_owned(),
-        // The error is only noted, because the other sections of the report do not need these files.
+        // The report shows the error and continues, because its other sections do not need these files.
         Err(error) => format!("<p>No pictures of this impact: {}.</p>\n", escape(&error.to_string())),
     };
     words + &pictures

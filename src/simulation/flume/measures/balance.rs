@@ -1,7 +1,8 @@
 //! Energy balance of the water: energy received from boundaries, viscosity, diffusion and zones.
 //!
-//! Powers are evaluated at the rows of the series and integrated by the trapezoidal rule. The energy of the water also
-//! changes by errors of the time integration and of this rule, and because impermeable surfaces remove velocity.
+//! The powers [W] are evaluated at each row of `energy.csv` and integrated by the trapezoidal rule. The sum differs
+//! from the change of the water's energy for two reasons: time integration and trapezoidal rule have errors, and
+//! impermeable surfaces remove kinetic energy that is not counted here.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +13,7 @@ use crate::sph::solver::power::Powers;
 pub struct Balance {
     /// From bed, walls, wavemaker and units, through pressure.
     pub boundary: f64,
-    /// From viscosity.
+    /// From viscosity; negative for a loss.
     pub viscosity: f64,
     /// From density diffusion.
     pub diffusion: f64,
@@ -23,7 +24,7 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// Adds the energy that the water has received since the last row; `powers` are the powers at `time` [s].
+    /// Adds the energy that the water has received since the last row; `powers` are the current powers, at `time` [s].
     pub fn add(&mut self, time: f64, powers: Powers) {
         let now = [powers.boundary, powers.viscosity, powers.diffusion];
         if let Some((before, last)) = self.last {

@@ -9,7 +9,7 @@ pub struct Energies {
     pub kinetic: f64,
     /// Potential energy of the water.
     pub potential: f64,
-    /// Energy of compression of the water.
+    /// Internal energy of the water, by compression.
     pub internal: f64,
     /// Kinetic energy of the units.
     pub units_kinetic: f64,

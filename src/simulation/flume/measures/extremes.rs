@@ -16,8 +16,8 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Returns the extremes, without NaN values; `None` if there is no particle. Of equal values, the particle with the
-    /// lowest index is returned, so that the result does not depend on the number of threads.
+    /// Returns the extremes; ignores NaN values. Returns `None` if there is no particle. If several particles have the
+    /// same extreme value, returns the lowest index, so that the result does not depend on the number of threads.
     pub fn of(water: &Water) -> Option<Self> {
         let of_particle = |i: usize| Self {
             fastest: (water.velocity[i].length(), i),

@@ -1,7 +1,7 @@
 //! Loads on the units, averaged over the time between two rows of `units.csv`.
 //!
-//! Impacts of water on a surface last one time step, and a contact may begin and end between two rows. Samples at the
-//! times of the rows would show neither correctly. A mean load times the interval is the exchanged momentum.
+//! The impulse of water at an impermeable surface lasts one time step, and a contact may begin and end between two
+//! rows. Loads at the times of the rows would represent neither. A mean load times the interval is the exact impulse.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! Quantities that a flume run measures or accumulates at each time step. All of them are part of the checkpoint.
+//! Quantities that a flume run measures or accumulates. The accumulated quantities are part of the checkpoint.
 
 pub mod balance;
 pub mod energy;

@@ -1,7 +1,7 @@
 //! The rest criterion: units are at rest if they stay near their reference poses for some time.
 //!
-//! The criterion uses displacements, because velocities are misleading. After the wave, low-viscosity water still
-//! shakes units: with a few millimetres per second, but by only hundredths of a millimetre.
+//! [`Rest`] checks displacements. Speeds alone are misleading: after the wave, low-viscosity water still shakes the
+//! units at a few millimetres per second, but moves them by only hundredths of a millimetre.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -11,16 +11,16 @@ use crate::rigid::BodyState;
 /// Reference poses of the units, and the time when they were set; part of every checkpoint.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rest {
-    /// Time of the reference poses [s].
+    /// Time at which the reference poses were set [s].
     since: f64,
     /// Reference pose of each unit: centre [m] and rotation; empty before the first check.
     places: Vec<([f64; 3], [f64; 4])>,
 }
 
 impl Rest {
-    /// Returns the time for which all units have stayed within `reach` [m] of their reference poses [s]. The rotation
-    /// counts as the displacement of the tips, which are at `tips` [m] from the centre. If a unit moves further, the
-    /// current poses become the reference poses.
+    /// Returns how long all units have stayed within `reach` [m] of their reference poses [s]. The displacement of a
+    /// unit is that of its centre plus that of its tips by rotation; the tips are `tips` [m] from the centre. If a unit
+    /// moves further than `reach`, the current poses of all units become the reference poses.
     pub fn look(&mut self, time: f64, states: &[BodyState], tips: f64, reach: f64) -> f64 {
         let stays = |((centre, rotation), state): (&([f64; 3], [f64; 4]), &BodyState)| {
             let turned = DQuat::from_array(*rotation).angle_between(state.rotation);
@@ -38,7 +38,7 @@ impl Rest {
 mod tests {
     use super::*;
 
-    /// Returns the time for which units with the given motion have stayed within 1 mm, after checks for one second [s].
+    /// Checks units with the given motion for one second. Returns how long they have stayed within 1 mm [s].
     fn stayed(motion: impl Fn(f64) -> (DVec3, DQuat)) -> f64 {
         let mut rest = Rest::default();
         let stay_after = |i: u32| {
@@ -57,9 +57,9 @@ mod tests {
         let trembles =
             stayed(|t| (1e-4 * (70.0 * t).sin() * DVec3::X, DQuat::from_rotation_y(1e-3 * (50.0 * t).cos())));
         assert_eq!([still, trembles], [1.0; 2]);
-        // At 3 mm/s, a unit moves by a millimetre in a third of a second.
+        // At 3 mm/s, a unit moves by 1 mm in 0.33 s. The criterion then starts again, so it never exceeds this time.
         assert!(stayed(|t| (3e-3 * t * DVec3::Y, DQuat::IDENTITY)) < 0.34);
-        // The tips are 4 cm from the centre: at 0.1 rad/s they move at 4 mm/s.
+        // The tips are 4 cm from the centre: at 0.1 rad/s they move at 4 mm/s, which is 1 mm in 0.25 s.
         assert!(stayed(|t| (DVec3::ZERO, DQuat::from_rotation_z(0.1 * t))) < 0.26);
     }
 

@@ -15,17 +15,18 @@ pub struct Statistics {
     pub shortest_step: f64,
     /// Longest time step [s].
     pub longest_step: f64,
-    /// Sum of the water forces on each unit [N], and number of time steps in the sum. It covers the second half of the
-    /// time before the release of the units.
+    /// Sum of the water forces on each unit [N], and number of time steps in the sum. The sum covers the second half of
+    /// the time before the release of the units.
     still_force: (Vec<[f64; 3]>, u64),
-    /// Largest water force on each unit [N]: mean between two rows of `units.csv`, minus the mean force of still water.
+    /// Largest water force on each unit [N]: mean force between two rows of `units.csv`, minus the mean force of the
+    /// still water.
     pub peak_fluid_force: Vec<f64>,
-    /// Largest contact force on each unit [N]: mean between two rows of `units.csv`.
+    /// Largest contact force on each unit [N]: mean force between two rows of `units.csv`.
     pub peak_contact_force: Vec<f64>,
     /// Number of contacts of each unit: first with bed and walls, then with other units. A contact of two units counts
-    /// for one of them.
+    /// only for the unit that is the first body of the contact.
     pub contacts: Vec<[u64; 2]>,
-    /// Largest contact force [N].
+    /// Largest force of a single contact [N].
     pub peak_contact: f64,
     /// Largest approach velocity at the start of a contact [m/s].
     pub fastest_contact: f64,
@@ -33,11 +34,11 @@ pub struct Statistics {
     pub rest: Rest,
     /// Energy of water and units at the start [J].
     pub energy_start: Option<f64>,
-    /// Energy that the water has received from boundaries, viscosity, diffusion and zones.
+    /// Energy that the water has received from boundaries, viscosity, density diffusion and zones.
     pub balance: Balance,
     /// Volume [m3] and number of particles of the water at the first row of `diagnostics.csv`.
     pub water_start: Option<(f64, u64)>,
-    /// Largest Mach number: speed of the water over its speed of sound c0 [-].
+    /// Largest Mach number: speed of the water divided by its speed of sound c0 [-].
     pub largest_mach: f64,
     /// Largest Mach number [-], lowest and highest density [kg/m3] since the last row of `diagnostics.csv`.
     water_since_row: Option<[f64; 3]>,
@@ -66,7 +67,8 @@ impl Statistics {
         self.steps += 1;
     }
 
-    /// Adds the extremes of the water at the end of a time step: Mach number [-], densities [kg/m3].
+    /// Adds the extremes of the water at the end of a time step: largest Mach number [-], lowest and highest density
+    /// [kg/m3].
     pub fn count_water(&mut self, mach: f64, lowest_density: f64, highest_density: f64) {
         self.largest_mach = self.largest_mach.max(mach);
         let [m, low, high] = self.water_since_row.unwrap_or([mach, lowest_density, highest_density]);
@@ -92,7 +94,7 @@ impl Statistics {
         DVec3::from(sums[unit]) / (*count).max(1) as f64
     }
 
-    /// Adds the mean loads of water and contact on a unit between two rows of `units.csv`.
+    /// Updates the largest forces on a unit with its mean loads of water and contact between two rows of `units.csv`.
     pub fn count_mean_loads(&mut self, unit: usize, [fluid, contact]: [Load; 2]) {
         let beyond_still = (fluid.force - self.still_force(unit)).length();
         self.peak_fluid_force[unit] = self.peak_fluid_force[unit].max(beyond_still);

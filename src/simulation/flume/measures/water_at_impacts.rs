@@ -14,7 +14,8 @@ pub struct WaterAtImpacts(pub BTreeMap<u64, FluidAtPeak>);
 
 impl WaterAtImpacts {
     /// Records the water `loads` of a time step for each hard contact whose force peak is in this time step. The time
-    /// step began at the contact time `since` [s]. Removes contacts that are neither active nor among the hardest.
+    /// step began at `since` [s], in the time of the rigid-body solver. Removes contacts that are neither active nor
+    /// among the hardest.
     pub fn note(&mut self, world: &RigidWorld, since: f64, loads: &[Load], boundary: &Boundary, tait: &Tait) {
         let mut noted = false;
         for event in world.impacts_with_peak_after(since) {
@@ -31,7 +32,7 @@ impl WaterAtImpacts {
     }
 }
 
-/// Returns the points of a unit at which water pressures are recorded.
+/// Returns the boundary particles of a unit, at which water pressures are recorded.
 pub fn pressure_places(boundary: &Boundary) -> Vec<PressurePoint> {
     let place = |(particle, to_surface)| PressurePoint { particle, to_surface };
     boundary.positions_in_unit().map(place).collect()

@@ -1,7 +1,7 @@
 //! Checkpoints: the bitwise state of a flume run in an HDF5 file.
 //!
-//! Arrays are datasets. One JSON text has all other state: time, bodies with their contacts, statistics, progress of
-//! the outputs. Every number in this text has the fewest digits that give the same bits.
+//! Arrays are datasets. One JSON text contains the rest of the state: time, bodies with their contacts, statistics,
+//! progress of the outputs. Every number in this text has the fewest digits that read back to the same bits.
 
 use std::path::Path;
 
@@ -27,7 +27,7 @@ use crate::{
 /// Version of the file layout; increased when the layout changes.
 const VERSION: u32 = 14;
 
-/// All state except the arrays.
+/// The state of a run without the arrays.
 #[derive(Serialize, Deserialize)]
 struct Scalars {
     version: u32,
@@ -120,8 +120,8 @@ pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, Ou
     read_of(simulation, dir, &hash)
 }
 
-/// Like [`read`], for the checkpoint of another case. `case_hash` is the hash of the other case, which must have the
-/// same particles and units.
+/// Like [`read`], but for the checkpoint of another case, which must have the same particles and units. `case_hash` is
+/// the hash of this other case.
 ///
 /// # Errors
 /// As for [`read`].
@@ -163,7 +163,7 @@ impl Checkpoint {
         let now = simulation.solver.name();
         if scalars.device != now {
             simulation.statistics.warnings.push(format!(
-                "resumed at {:.3} s on another device ({now} instead of {}): equally accurate, but not bitwise equal",
+                "resumed at {:.3} s on another device ({now} instead of {}): results equally accurate, not identical",
                 simulation.flume_time(),
                 scalars.device
             ));

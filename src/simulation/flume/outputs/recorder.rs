@@ -2,10 +2,10 @@
 //! checkpoints.
 //!
 //! The rows of the tables are short and are written immediately. Snapshots and checkpoints are large, so a separate
-//! thread writes them (see [`Writer`]). The thread keeps their order: a checkpoint never counts a snapshot that is not
-//! in its file yet.
+//! thread writes them (see [`Writer`]). The thread keeps their order: when a checkpoint is written, all snapshots that
+//! it counts are already in their files.
 //!
-//! All times are flume times, which start at 0 with the flume model.
+//! All times in the files are flume times; the flume model starts at the flume time 0.
 
 use std::{
     fs,
@@ -126,7 +126,7 @@ impl Recorder {
         Self::reopen(simulation, dir, state)
     }
 
-    /// Returns how often each output was written, and the lengths of the tables.
+    /// Returns the number of times that each output was written, and the lengths of the tables.
     pub fn state(&self) -> &RecorderState {
         &self.state
     }
@@ -154,7 +154,8 @@ impl Recorder {
             self.state.water += 1;
         }
         self.note_lengths();
-        // The first checkpoint is due after the first interval, because the case file defines the start.
+        // The first checkpoint is due after one interval: at the start no checkpoint is needed, because the case file
+        // defines the state.
         if is_due(self.state.checkpoints + 1, case.output.checkpoint_interval, time) {
             // Count first: the checkpoint includes itself in the number of checkpoints.
             self.state.checkpoints += 1;
@@ -170,7 +171,7 @@ impl Recorder {
     pub fn record_end(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
         now.fetch()?;
         // Write the checkpoint before the last row, and before active contacts are recorded as ended. A run with a
-        // longer duration may resume from it.
+        // longer duration can then resume from this checkpoint.
         self.record_checkpoint(now)?;
         self.record_series(now)?;
         if now.case.output.units_interval.is_some() {
@@ -234,7 +235,7 @@ impl Recorder {
         let means = units.mean_loads.take();
         let free = simulation.time > simulation.case.numerics.hold_units;
         for (number, state) in units.states().iter().enumerate() {
-            // Before the first row there is no time step to average over.
+            // At the first row, no time step was made yet, so there is no mean load: use the current loads.
             let now = || [units.fluid_loads[number], units.world.contact_loads()[number]];
             let loads = means.as_ref().map_or_else(now, |means| means[number]);
             if free {
@@ -288,7 +289,8 @@ fn gauge_columns(case: &Case) -> Vec<String> {
     ["time_s".to_owned()].into_iter().chain(names).collect()
 }
 
-/// Returns a row of `gauges.csv`; NaN for dry gauges and for gauges near or behind the wavemaker.
+/// Returns a row of `gauges.csv`; NaN for gauges without water, and for gauges behind the wavemaker or less than the
+/// smoothing length in front of it.
 fn gauge_row(simulation: &Simulation) -> Vec<f64> {
     let (case, sampler) = (&simulation.case, simulation.sampler());
     let wet_from = simulation.wavemaker_front().map_or(f64::NEG_INFINITY, |front| front + case.numerics.h);
@@ -327,7 +329,7 @@ fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 10] {
     ]
 }
 
-/// Returns the flume time minus the contact time [s]. The contact time starts at the release of the units.
+/// Returns the flume time minus the time of the rigid-body solver [s], which starts at the release of the units.
 fn contact_clock(simulation: &Simulation, units: &Units) -> f64 {
     simulation.flume_time() - units.world.time()
 }

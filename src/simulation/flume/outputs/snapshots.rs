@@ -1,6 +1,6 @@
 //! Snapshots of the water and of the surfaces of the units for ParaView.
 //!
-//! A [`Frame`] is a copy in single precision. A separate thread can write it while the run continues.
+//! A [`Frame`] is a copy of the data in single precision. A separate thread can write the copy while the run continues.
 
 use std::path::Path;
 
@@ -44,8 +44,8 @@ impl SnapshotFiles {
         })
     }
 
-    /// Opens the files of an interrupted run. Truncates the water file to `water` snapshots and the surface file to
-    /// `surfaces` snapshots.
+    /// Opens the files of an interrupted run. Keeps the first `water` snapshots of the water file and the first
+    /// `surfaces` snapshots of the surface file.
     ///
     /// # Errors
     /// If a file is missing or shorter than at the checkpoint.
@@ -178,7 +178,7 @@ fn particles_in(water: &Water, corners: Option<[[f64; 3]; 2]>) -> Vec<u32> {
     all.into_par_iter().with_min_len(4096).filter(inside).collect()
 }
 
-/// Returns `value` of each chosen particle, in the order of `chosen`.
+/// Returns `value` of each particle whose index is in `chosen`, in the same order.
 fn pick<T: Send>(chosen: &[u32], value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     chosen.par_iter().with_min_len(4096).map(|&i| value(i as usize)).collect()
 }
@@ -204,7 +204,7 @@ mod tests {
         let case = Case::from_str(&case.to_string(), "test").unwrap_or_else(|errors| panic!("{errors}"));
         let simulation = Simulation::new(Arc::new(case)).unwrap();
         let frame = Frame::of_water(&simulation);
-        // The box contains 8 particles along the flume, 12 across and 4 upwards.
+        // The box contains 8 particles along the flume, 12 across the flume and 4 vertically.
         assert_eq!(frame.points.len(), 8 * 12 * 4);
         assert!(frame.points.iter().all(|p| (0.4..=0.6).contains(&p[0]) && p[2] <= 0.1));
         let [Column::Integer(id), Column::Scalar(pressure)] = &frame.fields[..] else { panic!("id and pressure") };
@@ -213,7 +213,7 @@ mod tests {
         for (point, &id) in frame.points.iter().zip(id) {
             assert_eq!(*point, simulation.water.position[index_of(id)].as_vec3().to_array());
         }
-        // Still water: p = rho g (0.3 m - z). Tolerance 1 %, because the density rises with depth.
+        // Still water with the level 0.3 m: p = rho g (0.3 m - z). The density rises with depth: limit 1 %.
         let expected = |point: &[f32; 3]| 9810.0 * (0.3 - point[2]);
         assert!(frame.points.iter().zip(pressure).all(|(point, p)| (p / expected(point) - 1.0).abs() < 0.01));
     }

@@ -18,8 +18,8 @@ impl Simulation {
         absorption.advance(&mut self.absorbed, excess, dt);
     }
 
-    /// Returns the measured elevation minus the elevation of the generated wave [m], at `distance` [m] from the piston
-    /// and the flume time `t` [s]; 0 if there is no water.
+    /// Returns the measured elevation minus the elevation of the generated wave [m], at `distance` [m] in front of the
+    /// piston and at the flume time `t` [s]; 0 if there is no water.
     fn excess(&self, wavemaker: &Wavemaker, distance: f64, t: f64) -> f64 {
         let (domain, flume) = (&self.case.domain, &self.case.flume);
         let x = wavemaker.x_at_surface_m(t) + self.absorbed.displacement_m + distance;

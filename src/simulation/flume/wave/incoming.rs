@@ -17,22 +17,23 @@ use crate::{
     },
 };
 
-/// Longest time between two records of the flume model or of the piston motion [s]. A solitary wave lasts for seconds.
+/// Longest time between two records of the flume model or of the piston motion [s]. It is short compared with a
+/// solitary wave, which lasts for some seconds.
 const LONGEST_INTERVAL: f64 = 0.02;
-/// Least number of records per wave period.
+/// Smallest number of records per wave period.
 const RECORDS_PER_PERIOD: f64 = 60.0;
 
-/// Distance beyond both ends of the particle domain over which the flow of the flume model is recorded [m]. The margin
-/// is necessary because the piston moves.
+/// Distance by which the recorded flow of the flume model extends beyond both ends of the particle domain [m]. The
+/// distance is necessary because the piston moves beyond the end of the domain.
 const FLUME_MARGIN: f64 = 1.5;
 
-/// Upper limit of the arrival time of the wave at the particles, over the travel time of its energy from the seaward
-/// end [-].
+/// Upper limit of the arrival time of the wave at the particles, divided by the time in which the wave energy travels
+/// from the seaward end to the particles [-].
 const ARRIVAL_ALLOWANCE: f64 = 2.5;
 
-/// Time, in wave periods, over which the rows of a piston return to their start positions against the drift of the
-/// water. This return changes the oscillation by only 1 / (2 pi 4)^2 / 2 = 0.08 % of its height and by 2.3 degrees of
-/// its phase.
+/// Time constant, in wave periods, with which the rows of a piston return to their start positions against the drift of
+/// the water. The return reduces the height of the oscillation by only 1 / (2 pi 4)^2 / 2 = 0.08 %, and shifts its
+/// phase by 2.3 degrees.
 const DRIFT_PERIODS: f64 = 4.0;
 
 /// Runs the flume model until the end of the particle run. Returns `None` if the wave of the case does not come from
@@ -94,7 +95,7 @@ fn interval(wave: &Wave) -> f64 {
     wave.period().map_or(LONGEST_INTERVAL, |period| LONGEST_INTERVAL.min(period / RECORDS_PER_PERIOD))
 }
 
-/// Returns the flume time by which the wave has certainly reached its full height at x [m] [s].
+/// Returns a flume time [s] at which the wave has certainly reached its full height at the position `x` [m].
 fn latest_arrival(case: &Case, x: f64) -> f64 {
     let (distance, gravity) = (x - case.flume.ends()[0], case.fluid.gravity);
     let mean_depth = 0.5 * (case.flume.offshore_depth() + case.flume.still_depth(x));
@@ -115,7 +116,7 @@ fn latest_arrival(case: &Case, x: f64) -> f64 {
     ARRIVAL_ALLOWANCE * distance / speed + growth
 }
 
-/// Returns the time at which the particles start [s]: flume time, or time of the wave files.
+/// Returns the time at which the particles start [s]: a flume time or, for waves from files, a time of these files.
 pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
     let (place, level) = (case.domain.x[0], case.flume.still_water_level);
     match (case.domain.start, record, &case.wave) {
@@ -133,7 +134,7 @@ pub(crate) fn crest_time(case: &Case, record: Option<&FlumeRecord>, start: f64, 
     let end = start + case.stop.duration;
     let times = record.times_s().iter().filter(|time| (start..=end).contains(*time));
     let levels = times.map(|&time| (time - start, record.elevation(x, time)));
-    // Of equal levels, take the first: if x stays dry, the run then does not wait for a crest.
+    // Of equal levels, take the first. If x stays dry, all levels are equal, and the run does not wait for a crest.
     levels.reduce(|highest, next| if next.1 > highest.1 { next } else { highest }).map_or(0.0, |(time, _)| time)
 }
 

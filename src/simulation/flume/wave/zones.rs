@@ -1,12 +1,12 @@
 //! Damping and relaxation zones at the ends of the domain, in which the water approaches a target velocity v'.
 //!
 //! dv/dt = -f(x) (v - v'), solved exactly over a time step, after the forces: v <- v' + (v - v') exp(-f dt). This
-//! solution is stable for any rate f, and gives the energy received by the water up to rounding.
+//! solution is stable for any rate f, and gives the energy that the water receives, exact to rounding.
 //!
-//! - Damping zone, v' = 0: absorbs waves at the shoreward end (after the passive absorption of Altomare et al. 2017,
-//!   section 2.4; Molteni et al. 2013 call such zones sponge layers).
-//! - Relaxation zone, v' of the flume model: the wave enters at the seaward end. The zone reflects waves that come back
-//!   from the structure, but with less height (Altomare et al. 2018).
+//! - Damping zone, v' = 0: absorbs waves at the shoreward end (passive absorption of Altomare et al. 2017, section 2.4;
+//!   called sponge layer by Molteni et al. 2013).
+//! - Relaxation zone, v' from the flume model: the wave enters at the seaward end. The zone reflects a part of the
+//!   waves that return from the structure (Altomare et al. 2018).
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use crate::simulation::flume::Simulation;
 use crate::sph::particles::water::Water;
 
-/// Number of particles in a chunk. Chunks have a fixed length, so that sums do not depend on the number of threads.
+/// Number of particles in a chunk. The chunks have a fixed length, so that sums do not depend on the number of threads.
 const CHUNK: usize = 4096;
 
 impl Simulation {

@@ -1,7 +1,8 @@
 //! Surface level at gauges from OpenFOAM's function objects.
 //!
-//! `interfaceHeight` writes all gauges together. If it is not available (as in Debian's OpenFOAM 1912), use `probes` of
-//! the volume fraction of water on a vertical line. The depth of water between the probes gives the surface level.
+//! The function object `interfaceHeight` writes all gauges to one file. If it is not available (as in Debian's OpenFOAM
+//! 1912), use `probes` of the volume fraction of water on a vertical line per gauge. The depth of water between the
+//! lowest and the highest probe then gives the surface level.
 
 use std::path::Path;
 
@@ -15,7 +16,7 @@ use super::{interface_height, probes};
 /// `interfaceHeight`, whose locations are the gauges in the same order.
 ///
 /// # Errors
-/// If a folder or file cannot be read or understood.
+/// If a folder or file cannot be read, or its contents are wrong.
 pub fn read(folder: &Path, names: &[&str], water: &str, frame: Frame) -> Result<Vec<SurfaceSeries>, ExternalError> {
     if names.iter().any(|name| folder.join(name).is_dir()) {
         return names.iter().map(|name| probes::read_surface(&folder.join(name), water, frame)).collect();

@@ -17,7 +17,7 @@ use super::starts::time_folders;
 /// Reads the velocities on the sampled line `line` at all times and leaves out points in air.
 ///
 /// # Errors
-/// If a file cannot be read, a row is wrong, or the values are implausible at the position.
+/// If a file cannot be read, a row is wrong, or the values fail the checks of [`VelocityTable::checked`].
 pub fn read(vertical: &Vertical, line: &str, place: &Place) -> Result<VelocityTable, ExternalError> {
     let (mut times_s, mut heights_m, mut velocities_m_s) = (Vec::new(), Vec::new(), Vec::new());
     for (time, folder) in time_folders(vertical.folder)? {
@@ -73,7 +73,7 @@ fn read_points(frame: Frame, path: &Path, values: usize) -> Result<Vec<Point>, E
             return Err(text.line_error(
                 line,
                 problem,
-                "write one or three coordinates, then the fields in the file name",
+                "write one or three coordinates, then the values of the fields that the file name lists",
             ));
         };
         let values = numbers.split_off(coordinates);

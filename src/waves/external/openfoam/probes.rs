@@ -1,8 +1,8 @@
 //! Output of `probes`: `postProcessing/<name>/<t0>/U` with lines `# Probe 0 (x y z)` and one row `t (ux uy uz) ...` per
 //! time.
 //!
-//! The file `alpha.water` in the same folder has the volume fraction of water, which shows the probes in air. A probe
-//! outside the mesh has `# Not Found` after its position. It has either a value of -1e300 or, with
+//! The file `alpha.water` in the same folder has the volume fraction of water, which shows which probes are in air. A
+//! probe outside the mesh has `# Not Found` after its position. It has either a value of -1e300 or, with
 //! `includeOutOfBounds false`, no value.
 
 use std::io::{self, Write};
@@ -22,7 +22,7 @@ const ONE_PLACE_M: f64 = 1e-3;
 ///
 /// # Errors
 /// If a file cannot be read, a line is wrong, or the probes are not on one vertical line. Also if the probes or times
-/// of velocity and volume fraction differ, or the values are implausible at the position.
+/// of velocity and volume fraction differ, or the values fail the checks of [`VelocityTable::checked`].
 pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalError> {
     let velocity = Joined::read(probes.folder, probes.velocity)?;
     let points = Points::from_comments(&velocity, 3, probes.folder, probes.velocity)?;
@@ -114,7 +114,7 @@ fn parse_probe(comment: &str) -> Option<([f64; 3], bool)> {
     Some((numbers.try_into().ok()?, !remark.contains("Not Found")))
 }
 
-/// Reads the volume fractions of water at the same probes and times.
+/// Reads the volume fractions of water, which must have the same probes and times as the velocity.
 fn read_water(folder: &Path, field: &str, velocity: &Joined, points: &Points) -> Result<Vec<Vec<f64>>, ExternalError> {
     let water = Joined::read(folder, field)?;
     if Points::from_comments(&water, 1, folder, field)? == *points && water.times_s == velocity.times_s {
@@ -124,7 +124,7 @@ fn read_water(folder: &Path, field: &str, velocity: &Joined, points: &Points) ->
     Err(ExternalError::file(folder, problem, "sample both fields in one function object"))
 }
 
-/// Writes velocities in the format of probes at the given levels z [m] at x [m], with all digits.
+/// Writes the velocities at the position x [m] and the given levels z [m] in the format of `probes`, with all digits.
 ///
 /// # Errors
 /// If writing fails.
@@ -254,7 +254,7 @@ mod tests {
         };
         let with = read(rows);
         assert_eq!((&with.heights_m[1], &with.velocities_m_s[1]), (&vec![-0.75, -0.5], &vec![1.0, 2.0]));
-        // The same file as written with `includeOutOfBounds false`.
+        // OpenFOAM writes the same file without these values if `includeOutOfBounds` is false.
         assert_eq!(read(&rows.replace(" (-1e+300 -1e+300 -1e+300)", "")), with);
     }
 

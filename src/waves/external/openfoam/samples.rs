@@ -5,10 +5,10 @@ use std::path::Path;
 use super::super::surface::SurfaceSeries;
 use super::frame::Frame;
 
-/// Smallest volume fraction of water of a sample in the water [-]; samples with less water are in air and are left out.
+/// A sample counts as in water from this volume fraction of water upwards [-]; all other samples are left out.
 const WATER: f64 = 0.5;
 
-/// A larger magnitude marks a point outside the mesh; OpenFOAM writes about 1e300 there.
+/// A value of larger magnitude marks a point outside the mesh; OpenFOAM writes about 1e300 there.
 pub(super) const OUTSIDE_MESH: f64 = 1e30;
 
 /// A vertical line sampled by an OpenFOAM function object.

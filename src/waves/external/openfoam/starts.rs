@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn later_start_replaces_the_end_of_the_earlier_start() {
-        // Numerical order: 10 comes after 2.
+        // Starts are joined in the order of their numbers, not of their names: 10 comes after 2.
         let folder = folder(&[
             ("10", "# a\n11 (5 6 7)\n"),
             ("0", "# a\n1 (1 0 0)\n2 (2 0 0)\n3 (3 0 0)\n"),

@@ -51,7 +51,7 @@ impl Table {
                 return Err(text.line_error(line, problem, "write the table with HEADER or NOHEADER"));
             } else if columns.is_empty() {
                 let advice = "list the columns in file order, or write with HEADER";
-                return Err(text.line_error(line, "no header names the columns", advice));
+                return Err(text.line_error(line, "no header with the column names", advice));
             } else {
                 rows.push(parse_row(&text, line, words, &columns)?);
             }

@@ -7,7 +7,7 @@ use super::surface::van_leer;
 
 impl LayeredFlume {
     /// Computes the upward volume flux through the interface below each layer, relative to the interface [m2/s]:
-    /// omega_{m+1} = omega_m + sum(dQ) / K - dQ_m.
+    /// omega_{m+1} = omega_m + sum(dQ) / K - dQ_m, with the net outflow dQ_m through both faces of layer m.
     pub(super) fn exchange_between_layers(&mut self) {
         let k = self.layers;
         for cell in 0..self.grid.cells() {
@@ -27,7 +27,8 @@ impl LayeredFlume {
     }
 
     /// Advection term of u_m at an inner face [m/s2]:
-    /// ([F (u_c - u)]_right - [F (u_c - u)]_left + vertical exchange) / (h dx), F the flux through the cell centre.
+    /// ([F (u_c - u)]_right - [F (u_c - u)]_left + vertical exchange) / (h dx). At the centre of the cell on
+    /// each side, F is the volume flux and u_c the upwind value of u_m.
     pub(super) fn advection_of_u(&self, face: usize, m: usize) -> f64 {
         let (k, left, right) = (self.layers, face - 1, face);
         let u = self.u[face * k + m];

@@ -1,8 +1,9 @@
-//! Block tridiagonal solver for symmetric positive definite systems, without pivoting (Golub & Van Loan 4.5).
+//! Block tridiagonal solver for symmetric positive definite systems, without pivoting (Golub & Van Loan, Matrix
+//! computations, section 4.5).
 
-/// A system of `blocks` x `blocks` blocks of size `size`: matrix, right-hand side and scratch memory.
+/// A system of `blocks` x `blocks` blocks, each a `size` x `size` matrix: matrix, right-hand side and scratch memory.
 ///
-/// Row i is U_{i-1}^T q_{i-1} + D_i q_i + U_i q_{i+1} = r_i.
+/// Block row i is U_{i-1}^T q_{i-1} + D_i q_i + U_i q_{i+1} = r_i, with the vector q_i of unknowns.
 #[derive(Debug, Clone)]
 pub(super) struct BlockTridiagonal {
     size: usize,
@@ -92,7 +93,7 @@ impl BlockTridiagonal {
         solve_block(&mut self.pivot, eliminated, &mut self.right[block * k..(block + 1) * k]);
     }
 
-    /// Computes the unknowns of a block from those of the next block: q_i = r_i - C_i q_{i+1}.
+    /// Computes the unknowns of a block from the unknowns of the next block: q_i = r_i - C_i q_{i+1}.
     fn substitute_back(&mut self, block: usize) {
         let k = self.size;
         for row in 0..k {

@@ -3,16 +3,17 @@
 //! * Weakly reflecting inflow (Blayo & Debreu 2005; Zijlema et al. 2011, section 4.4): the velocity of the incoming
 //!   wave plus the velocity of an outgoing long wave with the excess elevation, u_m = u_in(z_m) - sqrt(g / d) (eta -
 //!   eta_in).
-//! * Radiating end: the incoming characteristic is that of still water, U = 2 (sqrt(g H) - sqrt(g d)). Velocity
-//!   differences between the layers are copied from the nearest inner face. This condition is exact for small long
-//!   waves; higher or shorter waves are partly reflected.
+//! * Radiating end: the incoming characteristic has its value in still water, so the depth-mean velocity is
+//!   U = 2 (sqrt(g H) - sqrt(g d)), where d is the still water depth. Velocity differences between the layers are
+//!   copied from the nearest inner face. This condition is exact for small long waves; higher or shorter waves are
+//!   partly reflected.
 //! * Sponge: du/dt = - sigma u in front of a wall. sigma grows with the cube of the distance into the sponge (Israeli &
 //!   Orszag 1981).
 
 use super::{LayeredFlume, LayeredParameters, LeftEnd, RightEnd};
 
-/// Integral of the damping rate over the length of the sponge, divided by the long-wave celerity [-]. A reflected long
-/// wave keeps exp(-6) = 0.25 % of its height.
+/// Integral of the damping rate over the length of the sponge, divided by the long-wave celerity [-]. A long wave that
+/// the wall reflects leaves the sponge with exp(-6) = 0.25 % of its height.
 const SPONGE_STRENGTH: f64 = 6.0;
 /// Node of the two-point Gauss rule on [-1, 1], which is exact for a cubic velocity profile in a layer.
 const GAUSS: f64 = 0.577_350_269_189_625_8;
@@ -46,8 +47,8 @@ impl LayeredFlume {
         }
     }
 
-    /// Velocity of layer m at the inflow at n + 1/2 [m/s]: mean of the incoming wave over the layer, plus the outgoing
-    /// wave.
+    /// Velocity of layer m at the inflow at n + 1/2 [m/s]: mean velocity of the incoming wave over the layer, plus the
+    /// velocity of the outgoing wave.
     fn inflow_velocity(&self, m: usize) -> f64 {
         let LeftEnd::Inflow(wave) = &self.left_end else { return 0.0 };
         let t = self.time_s + 0.5 * self.step_s;
@@ -94,7 +95,8 @@ impl LayeredFlume {
     }
 }
 
-/// Damping rates of the sponge at positions x [m]: 4 A c s^3 / L [1/s], with s from 0 to 1. The integral over x is A c.
+/// Damping rates of the sponge at positions x [m]: 4 A c s^3 / L [1/s], where A is `SPONGE_STRENGTH`, c the long-wave
+/// celerity and L the length of the sponge; s increases from 0 to 1 over this length. The integral over x is A c.
 pub(super) fn sponge_rates(parameters: &LayeredParameters, positions: &[f64]) -> Vec<f64> {
     let RightEnd::Sponge { length_m } = parameters.right_end else { return vec![0.0; positions.len()] };
     let points = parameters.profile.points();

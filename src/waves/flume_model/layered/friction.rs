@@ -6,10 +6,10 @@
 //! smooth:  c_f = max(3 / Re, 0.0279 Re^(-1/4)),  Re = |U| H / nu
 //! ```
 //!
-//! with the mean velocity U over the depth H. The bed shear stress rho c_f |U| U is distributed over the layers in
-//! proportion to their velocity. The model has no turbulent stress between layers, so a stress on the lowest layer
-//! alone would let the other layers slide over it. With one layer, this is equation 6 of Zijlema, Stelling & Smit
-//! (2011).
+//! with the mean velocity U over the depth H, Manning's n and the kinematic viscosity nu. The bed shear stress
+//! rho c_f |U| U is distributed over the layers in proportion to their velocity. The model has no turbulent stress
+//! between layers, so a stress on the lowest layer alone would let the other layers slide over it. With one layer, this
+//! is equation 6 of Zijlema, Stelling & Smit (2011).
 //!
 //! On a smooth bed the stress is the larger of 3 mu U / H (laminar film) and Blasius's (1913) law. Blasius's law for
 //! smooth walls is f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8). Manning's law is valid for rough
@@ -41,12 +41,13 @@ impl LayeredFlume {
     }
 }
 
-/// c_f = g n^2 / H^(1/3) [-].
+/// Friction coefficient of Manning's law [-]: c_f = g n^2 / H^(1/3).
 fn manning_coefficient(gravity: f64, n: f64, depth: f64) -> f64 {
     gravity * n * n / depth.cbrt()
 }
 
-/// c_f = max(3 / Re, 0.0279 Re^(-1/4)) [-]; finite in still water, where friction has no effect.
+/// Friction coefficient of a smooth bed [-]: c_f = max(3 / Re, 0.0279 Re^(-1/4)). It is finite in still water, where
+/// friction has no effect.
 fn smooth_coefficient(reynolds: f64) -> f64 {
     let reynolds = reynolds.max(1e-6);
     (3.0 / reynolds).max(0.0279 * reynolds.powf(-0.25))
@@ -58,12 +59,12 @@ mod tests {
 
     #[test]
     fn smooth_bed_follows_laminar_film_and_smooth_pipe() {
-        // The mean velocity of a film is g S H^2 / 3 nu, so c_f U^2 = g H S.
+        // A laminar film on the slope S has the mean velocity U = g S H^2 / (3 nu), and c_f U^2 balances g H S.
         let (depth, nu, slope) = (5e-4f64, 1e-6, 0.01);
         let velocity = 9.81 * slope * depth * depth / (3.0 * nu);
         let c_f = smooth_coefficient(velocity * depth / nu);
         assert!((c_f * velocity * velocity / (9.81 * depth * slope) - 1.0).abs() < 1e-12);
-        // The Darcy friction factor of a smooth pipe at 4 Re = 1e5 is 0.018.
+        // The Darcy friction factor 8 c_f of a smooth pipe at 4 Re = 1e5 is 0.018.
         assert!((8.0 * smooth_coefficient(2.5e4) - 0.018).abs() < 5e-4);
     }
 

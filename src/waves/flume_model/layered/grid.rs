@@ -1,9 +1,10 @@
 //! Cells that follow the piston: an arbitrary Lagrangian-Eulerian (ALE) grid in one dimension.
 //!
-//! Near the piston, the faces move by a share of its displacement X: x = x0 + X (1 - x0 / L) for x0 < L. Beyond L they
-//! are fixed. The piston is the first face, and all fluxes are relative to the moving faces. Therefore the volume of
-//! water is conserved to rounding for any stroke. (An inflow at x = 0 with the piston's velocity would need a
-//! correction for the displaced water and would start the wave at the wrong position.)
+//! Near the piston, the faces move by a share of its displacement X: a face at the distance x0 from the piston at rest
+//! moves to x = x0 + X (1 - x0 / L) if x0 < L. Faces beyond L are fixed. The piston is the first face, and all fluxes
+//! are relative to the moving faces. Therefore the volume of water is conserved to rounding for any stroke. (An inflow
+//! at x = 0 with the piston's velocity would need a correction for the displaced water and would start the wave at the
+//! wrong position.)
 
 use crate::geometry::profile::Profile;
 

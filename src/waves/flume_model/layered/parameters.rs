@@ -4,7 +4,7 @@ use crate::geometry::profile::Profile;
 use crate::waves::flume_model::incoming::IncomingWave;
 use crate::waves::theory::solitary::SolitaryWave;
 
-/// Flume, grid, ends and dissipation.
+/// Parameters of a flume: bed, water, grid, ends and dissipation.
 #[derive(Debug, Clone)]
 pub struct LayeredParameters {
     /// Bed from the left end (the piston at rest) to the right end.
@@ -65,7 +65,7 @@ pub enum RightEnd {
 /// Pressure model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pressure {
-    /// With vertical accelerations, so that waves are dispersive.
+    /// Pressure with the effect of vertical accelerations; waves are dispersive.
     NonHydrostatic,
     /// Shallow-water equations without dispersion, for comparison with their exact solutions.
     Hydrostatic,
@@ -95,9 +95,10 @@ pub enum Breaking {
     Unlimited,
     /// Breaking fronts are hydrostatic and become bores (Smit, Zijlema & Stelling 2013).
     HydrostaticFront {
-        /// Rate of rise of the surface over sqrt(g H) above which a cell starts to break [-].
+        /// Rate of rise of the surface, divided by sqrt(g H), above which a cell starts to break [-].
         onset: f64,
-        /// Rate of rise over sqrt(g H) above which a cell breaks if it or a neighbour broke in the last time step [-].
+        /// Rate of rise, divided by sqrt(g H), above which a cell breaks if it or a neighbour broke in the previous
+        /// time step [-].
         persistence: f64,
     },
 }

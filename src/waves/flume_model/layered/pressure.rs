@@ -6,8 +6,8 @@
 //! du_m/dt = - [dx q_bar_m - (q_{m+1} - q_m) dx z_m / h_m],   dw_m/dt = - (q_{m+1} - q_m) / h_m
 //! ```
 //!
-//! with z_m the middle of layer m and q_bar_m the mean over its two interfaces. The discrete continuity equation is the
-//! exact transpose of this force. At the interface between layers m-1 and m it is
+//! with the middle z_m of layer m and the mean q_bar_m of q over its bottom and top. The discrete continuity equation
+//! is the exact transpose of this force. At the interface between layers m-1 and m it is
 //!
 //! ```text
 //! w_m - w_{m-1} + [dx(h u)_{m-1} + dx(h u)_m] / 2 + u_{m-1} dx z_{m-1} - u_m dx z_m = 0
@@ -18,7 +18,8 @@
 
 use super::LayeredFlume;
 
-/// Weights of q in dx q for one layer at a face [1/m]: [bottom, top] of the layer on the left and on the right.
+/// Weights of q in the derivative dx q for one layer at a face [1/m]: for [bottom, top] of the layer in the left and in
+/// the right cell.
 #[derive(Debug, Clone, Copy)]
 struct Gradient {
     left: [f64; 2],
@@ -26,7 +27,8 @@ struct Gradient {
 }
 
 impl Gradient {
-    /// Weights of dx q at constant z: spacing dx [m], slope dx z of the middle of the layer [-], layer depth h [m].
+    /// Computes the weights of dx q at constant z from the cell spacing dx [m], the slope dx z of the middle of the
+    /// layer [-] and the layer depth h [m].
     fn new(spacing: f64, slope: f64, layer_depth: f64) -> Self {
         let (a, e) = (0.5 / spacing, 0.5 * slope / layer_depth);
         Self { left: [-a + e, -a - e], right: [a + e, a - e] }
@@ -54,7 +56,7 @@ impl LayeredFlume {
         (middle(face) - middle(face - 1)) / self.grid.spacing(face)
     }
 
-    /// Weights of q for layer m at a face; an end face takes the slope of the nearest inner face.
+    /// Weights of q for layer m at a face; an end face uses the slope of the nearest inner face.
     fn gradient_at(&self, face: usize, m: usize) -> Gradient {
         let last = self.grid.cells();
         let slope = self.slope_at(face.clamp(1, last - 1), m);
@@ -79,7 +81,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Adds the contributions of u_m at a face, weighted with the volume h dx of the layer at the face.
+    /// Adds the contributions of u_m at a face to the system, weighted with the volume h dx of the layer at the face.
     fn assemble_face(&mut self, face: usize, m: usize) {
         let (k, cells) = (self.layers, self.grid.cells());
         let gradient = self.gradient_at(face, m);
@@ -107,7 +109,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Adds the contributions of w_m in a cell.
+    /// Adds the contributions of w_m in a cell to the system.
     fn assemble_cell(&mut self, cell: usize, m: usize) {
         let k = self.layers;
         let width = self.grid.width[cell];

@@ -20,7 +20,7 @@ pub struct Column {
     pub w: Vec<f64>,
 }
 
-/// Surface in a cell.
+/// Water surface in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
     /// Centre of the cell [m].

@@ -8,7 +8,8 @@
 
 use super::{Breaking, DRY_DEPTH_M, LayeredFlume, Pressure};
 
-/// Depth below which water is hydrostatic, relative to the largest still water depth [-]; films have no dispersion.
+/// Depth below which water is hydrostatic, relative to the largest still water depth [-]. Waves in such films are
+/// not dispersive.
 const HYDROSTATIC_SHARE: f64 = 2.5e-3;
 /// Froude numbers between which the face depth changes from the mean to the upwind depth.
 const FROUDE_RANGE: [f64; 2] = [0.7, 1.0];
@@ -55,8 +56,8 @@ impl LayeredFlume {
         steepness > onset || (broke_nearby && steepness > persistence)
     }
 
-    /// Weight of the deep-water scheme at an inner face [-]: 1 if the water is deep compared with the bed step, 0 if
-    /// shallow.
+    /// Weight of the deep-water scheme at an inner face [-]: 1 if the water is deep compared with the difference of
+    /// the bed levels of its two cells, 0 if the water is shallow.
     fn deep_share(&self, face: usize) -> f64 {
         let step = 2.0 * (self.grid.bed[face] - self.grid.bed[face - 1]).abs() + self.hydrostatic_below_m;
         (self.depth[face - 1].min(self.depth[face]) / step - 1.0).clamp(0.0, 1.0)

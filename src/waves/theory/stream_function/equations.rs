@@ -16,7 +16,7 @@ const SCALARS: usize = 5;
 pub struct SteadyWave {
     /// Wavenumber.
     pub k: f64,
-    /// Mean velocity of the water U in the frame of the wave.
+    /// Mean speed U of the water in the frame of the wave.
     pub u: f64,
     /// Celerity.
     pub c: f64,
@@ -40,7 +40,7 @@ impl SteadyWave {
         Self { k, u: c, c, q: c, r: 1.0 + 0.5 * c * c, surface, b }
     }
 
-    /// Extrapolates linearly from `earlier` through this wave, by `share` times their difference beyond this wave.
+    /// Extrapolates linearly from `earlier` through this wave: adds `share` times (this wave minus `earlier`).
     pub fn extrapolated(&self, earlier: &Self, share: f64) -> Self {
         let (current, previous) = (self.to_vector(), earlier.to_vector());
         let next: Vec<f64> = current.iter().zip(&previous).map(|(a, b)| a + share * (a - b)).collect();
@@ -73,12 +73,12 @@ impl SteadyWave {
     }
 }
 
-/// cosh(a y) / cosh(a), finite for every a.
+/// Returns cosh(a y) / cosh(a); the formula avoids the overflow of cosh(a) for large a.
 pub fn cosh_ratio(a: f64, y: f64) -> f64 {
     ((a * (y - 1.0)).exp() + (-a * (y + 1.0)).exp()) / (1.0 + (-2.0 * a).exp())
 }
 
-/// sinh(a y) / cosh(a).
+/// Returns sinh(a y) / cosh(a); the formula avoids the overflow of cosh(a) for large a.
 fn sinh_ratio(a: f64, y: f64) -> f64 {
     ((a * (y - 1.0)).exp() - (-a * (y + 1.0)).exp()) / (1.0 + (-2.0 * a).exp())
 }
@@ -217,7 +217,7 @@ mod tests {
             let (up, down) = (shifted(1e-5), shifted(-1e-5));
             for row in 0..x.len() {
                 let slope = (up[row] - down[row]) / 2e-5;
-                // Error of the central difference: (1e-5)^2 times third derivatives of up to (N k)^3 = 100.
+                // The error of the central difference is (1e-5)^2 times a third derivative of up to (N k)^3 = 100.
                 assert!((slope - matrix[row * x.len() + column]).abs() < 1e-7, "{row} {column}");
             }
         }
