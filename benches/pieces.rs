@@ -1,5 +1,5 @@
-//! Benchmarks of the stages of an SPH time step on one thread, for each instruction set of the processor: `cargo
-//! bench`. `breakwater bench` measures complete time steps on all threads.
+//! Benchmarks of the stages of an SPH time step on one thread, for each instruction set of the processor. Run them with
+//! `cargo bench --bench pieces`. The command `breakwater bench` measures complete time steps.
 
 use breakwater::bench::tank::Tank;
 use breakwater::sph::{
@@ -12,7 +12,7 @@ use glam::DVec2;
 
 /// Particle spacing [m].
 const DP: f64 = 0.01;
-/// Edge of the cube of water [particle spacings].
+/// Length of the edges of the cube of water, in particle spacings.
 const EDGE: f64 = 24.0;
 
 fn main() {
@@ -27,7 +27,7 @@ fn instruction_sets() -> Vec<InstructionSet> {
 /// Creates a cube of still water with sorted particles and neighbour lists.
 fn tank(instructions: InstructionSet) -> Tank {
     let side = EDGE * DP;
-    // 2h/dp = 4.16, the default of case files.
+    // Smoothing length h = 2.08 dp, the default of case files.
     let mut parameters = Parameters::published(DP, 2.08 * DP, 15.0 * (9.81 * side).sqrt(), 9.81, Some(side));
     parameters.slip = WallSlip::FreeSlip;
     let mut tank = Tank::new(instructions, parameters, [side; 3], &|_| side, &|_, _| DVec2::ZERO, &[]);
@@ -38,7 +38,7 @@ fn tank(instructions: InstructionSet) -> Tank {
     tank
 }
 
-/// Measures one stage; the throughput is the number of particles per second.
+/// Measures one stage of the time step. The reported throughput is the number of particles per second.
 fn measure(bencher: Bencher, instructions: InstructionSet, mut run: impl FnMut(&mut Tank)) {
     let mut tank = tank(instructions);
     let particles = tank.water.len() + tank.boundary.len();

@@ -1,5 +1,6 @@
 //! Benchmarks on one thread of FEMDEM time steps (without joints, with joints on all faces, with tied joints) and of
-//! the contact detection: `cargo bench --bench tetrahedra`. The block of tetrahedra rotates and nothing breaks.
+//! the contact detection. Run them with `cargo bench --bench tetrahedra`. In the time steps, a block of tetrahedra
+//! rotates and nothing breaks.
 
 use breakwater::femdem::{
     contact::detection::{Bounds, intersecting_pairs},
@@ -21,7 +22,7 @@ const CONCRETE: Elastic = Elastic { density: 2340.0, young_modulus: 26e9, poisso
 const STRENGTH: Strength =
     Strength { tensile: 3.3e6, cohesion: 16.5e6, friction: 0.577, opening_energy: 50.0, sliding_energy: 1250.0 };
 
-/// Number of cells along an edge of the block: 16,464, 131,712 and 998,250 tetrahedra.
+/// Number of cells along each edge of the block. The blocks have 16,464, 131,712 and 998,250 tetrahedra.
 const CELLS: [usize; 3] = [14, 28, 55];
 
 fn main() {
@@ -61,7 +62,7 @@ fn tied_joints(bencher: Bencher, cells: usize) {
 /// time must grow linearly with the number of boxes.
 #[divan::bench(args = [10_000, 100_000, 1_000_000])]
 fn contact_detection(bencher: Bencher, count: usize) {
-    // Volume of a regular tetrahedron: 0.118 m3.
+    // A regular tetrahedron with edges of 1 m has a volume of 0.118 m3.
     let row = (count as f64).cbrt().ceil();
     let spacing = (0.118 * count as f64).cbrt() / row;
     let boxes: Vec<Bounds> = (0..count)

@@ -417,7 +417,7 @@ fn resume_before_the_first_checkpoint_says_what_to_do() {
 fn compare_and_report_refuse_a_folder_without_a_run() {
     let folder = tempfile::tempdir().unwrap();
     let message = refuse(&["report", path(folder.path())]);
-    assert!(message.contains("summary.json"), "{message}");
+    assert!(message.contains("case.json"), "{message}");
     let message = refuse(&["compare", path(folder.path()), "--reference", "cases/fudo/reference"]);
     assert!(message.contains("summary.json"), "{message}");
 }

@@ -215,7 +215,7 @@ fn derived_numbers_equal_those_of_the_published_run() {
 #[test]
 fn estimate_counts_the_water_particles_of_the_dam_break() {
     let case = case("verification/dam-break.json");
-    // The column is 1 m x 2 m; each particle has (0.01 m)^2.
+    // The column is 1 m x 2 m; each particle represents (0.01 m)^2.
     assert_eq!(case.estimate().fluid, 20_000.0);
     assert_eq!((case.domain.nx, case.domain.ny, case.domain.nz), (400, 1, 300));
 }

@@ -96,7 +96,7 @@ fn convex_parts_come_from_files_or_from_decomposition() {
     let pose = json!([{ "centre_m": [0.0, 0.5, 0.3] }]);
     let parts: Vec<String> = (0..5).map(|number| format!("part{number}.stl")).collect();
     try_run(&settling_case(json!({ "path": "dolos.stl", "parts": parts }), pose.clone()), folder.path()).unwrap();
-    // Four of the five parts: the message gives the missing share of the volume.
+    // With four of the five parts, the message gives the missing share of the volume.
     let error =
         try_run(&settling_case(json!({ "path": "dolos.stl", "parts": parts[1..] }), pose.clone()), folder.path());
     assert!(error.as_ref().unwrap_err().contains("of its volume"), "{error:?}");

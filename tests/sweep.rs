@@ -124,7 +124,10 @@ fn a_failed_run_is_listed() {
     let message = String::from_utf8_lossy(&ended.stderr);
     assert!(message.contains("1 of 2 runs are not finished: 002_cfl=0.3"), "{message}");
     let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
-    assert!(table.lines().nth(1).unwrap().ends_with(",finished") && table.contains("failed: try"), "{table}");
+    assert!(
+        table.lines().nth(1).unwrap().ends_with(",finished") && table.contains("failed: attempt 1 of 2"),
+        "{table}"
+    );
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The block of water of the benchmark.
+//! The block of water whose time steps the benchmark measures.
 
 use std::time::{Duration, Instant};
 
@@ -17,18 +17,18 @@ const DP: f64 = 0.01;
 /// A cube of water on a bed between two end walls, periodic in y.
 pub struct Block {
     tank: Tank,
-    /// "still" or "moving".
+    /// Motion of the water: "still" or "moving".
     pub motion: &'static str,
 }
 
 impl Block {
-    /// Creates a block with about `particles` water particles; the water sloshes if `moving` is true. `support_per_dp`
-    /// is the radius 2h of the kernel support over the particle spacing [-].
+    /// Creates a block with about `particles` water particles. If `moving` is true, the water sloshes. `support_per_dp`
+    /// is the radius 2h of the kernel support, divided by the particle spacing [-].
     pub fn new(instructions: InstructionSet, particles: usize, support_per_dp: f64, moving: bool) -> Self {
         let side = (particles as f64).cbrt().round().max(8.0) * DP;
         let h = 0.5 * support_per_dp * DP;
         let mut parameters = Parameters::published(DP, h, 15.0 * (GRAVITY * side).sqrt(), GRAVITY, Some(side));
-        // Case files use free slip by default.
+        // Use free slip, the default of case files.
         parameters.slip = WallSlip::FreeSlip;
         // Velocity of the lowest sloshing mode: water falls along one wall and rises along the other.
         let speed = if moving { 0.3 * (GRAVITY * side).sqrt() } else { 0.0 };
@@ -95,8 +95,8 @@ impl Block {
         end_phase(5);
     }
 
-    /// Returns a lower bound of the memory traffic of a time step [bytes]. Neighbour lists and particle records are
-    /// read for two evaluations. The state of the water is sorted, predicted and corrected.
+    /// Returns a lower bound of the memory traffic of a time step [bytes]. Both evaluations of the rates read the
+    /// neighbour lists and particle records. Sorting, predictor and corrector read and write the state of the water.
     pub fn min_traffic(&self) -> f64 {
         2.0 * self.tank.solver.bytes_read() as f64 + 5.0 * self.tank.water.bytes() as f64
     }

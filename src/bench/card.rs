@@ -1,4 +1,4 @@
-//! The benchmark on a graphics card, compared with the measured peaks of the card.
+//! The benchmark on a graphics card: speed of the solver, compared with the measured peak speeds of the card.
 
 use std::time::{Duration, Instant};
 
@@ -12,19 +12,20 @@ use crate::sph::{
     solver::backend::{Backend, DeviceError, DeviceMemory},
 };
 
-/// Source of the shader that measures the peaks.
+/// Source of the shader that measures the peak arithmetic speed and the memory bandwidth.
 pub const PEAKS: &str = include_str!("card.wgsl");
 
 /// Arithmetic operations per thread of the shader function `multiply_and_add`.
 const OPERATIONS: f64 = 2.0 * 16.0 * 1024.0;
 
-/// Base number of threads of the tests, 16 MB per array. A card runs 4 times, a software renderer 1/64 of this number.
+/// Base number of threads of the tests; arrays of this length have 16 MiB. The tests use 4 times this number of threads
+/// on a card, and 1/64 of this number on a software renderer.
 const THREADS: usize = 1 << 20;
 
-/// Measured peaks of a graphics card.
+/// Measured peak arithmetic speed and memory bandwidth of a graphics card.
 #[derive(Debug, Clone, Copy)]
 pub struct Peaks {
-    /// Single-precision operations per second; a fused multiply-add counts as two.
+    /// Number of single-precision operations per second; a fused multiply-add counts as two operations.
     pub flops: f64,
     /// Memory traffic [bytes/s].
     pub bandwidth: f64,
@@ -66,7 +67,7 @@ impl Peaks {
 /// # Errors
 /// If the card has too little memory or is lost.
 pub fn measure_on_card(block: &mut Block, card: &Card, seconds: f64, peaks: Peaks) -> Result<Measurement, DeviceError> {
-    // One time step on the processor counts the neighbours.
+    // Compute one time step on the processor, to count the neighbours.
     block.step(&mut [Duration::ZERO; PHASES.len()]);
     let neighbours_mean = block.solver().mean_neighbours();
     let (parameters, grid) = (block.parameters_of_cards(), &block.solver().grid);
@@ -101,7 +102,7 @@ pub fn measure_on_card(block: &mut Block, card: &Card, seconds: f64, peaks: Peak
         solver.correct(dt, water, boundary);
         end_phase(&mut solver, 5)
     };
-    // The first time step compiles the remaining shaders.
+    // In the first time step the card still compiles shaders, so this time step is not measured.
     let mut times = [Duration::ZERO; PHASES.len()];
     step(&mut times)?;
     times = [Duration::ZERO; PHASES.len()];

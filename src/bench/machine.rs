@@ -6,11 +6,12 @@ use rayon::prelude::*;
 
 use crate::sph::lanes::{InstructionSet, Lanes, WithLanes};
 
-/// Number of independent chains of operations. It exceeds the latency [cycles] times the number of arithmetic units, so
-/// that no unit waits.
+/// Number of independent chains of operations. This number exceeds the duration of an operation [cycles] times the
+/// number of arithmetic units, so that no arithmetic unit waits for a result.
 const CHAINS: usize = 12;
 
-/// Length of each of the three arrays of the bandwidth test: 64 MiB, much larger than the caches of a core.
+/// Number of entries of each of the three arrays of the bandwidth test. An array has 64 MiB, much more than the caches
+/// of a core.
 const NUMBERS: usize = 1 << 24;
 
 /// Measured peak speed and bandwidth for 1, 2, ... threads.
@@ -21,7 +22,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Measures with one to `threads` threads; takes about a second for each number of threads.
+    /// Measures with 1, 2, ... `threads` threads. The measurement takes about a second for each number of threads.
     ///
     /// # Errors
     /// If the threads cannot be started.
@@ -35,12 +36,13 @@ impl Machine {
         Ok(machine)
     }
 
-    /// Returns the peak number of single-precision operations per second; a fused multiply-add counts as two.
+    /// Returns the peak number of single-precision operations per second with this number of threads. A fused
+    /// multiply-add counts as two operations.
     pub fn flops(&self, threads: usize) -> f64 {
         self.flops[threads - 1]
     }
 
-    /// Returns the peak memory traffic [bytes/s].
+    /// Returns the peak memory traffic with this number of threads [bytes/s].
     pub fn bandwidth(&self, threads: usize) -> f64 {
         self.bandwidth[threads - 1]
     }
@@ -79,7 +81,8 @@ fn peak_flops(instructions: InstructionSet, threads: usize) -> f64 {
     best_of(|| measure(4_000_000))
 }
 
-/// Measures the memory traffic of a = b + s c [bytes/s]: two arrays are read and one is written.
+/// Measures the memory traffic [bytes/s] of the operation a = b + s c on arrays: two arrays are read and one is
+/// written.
 fn peak_bandwidth() -> f64 {
     let (b, c) = (vec![1.0_f32; NUMBERS], vec![2.0_f32; NUMBERS]);
     let mut a = vec![0.0_f32; NUMBERS];

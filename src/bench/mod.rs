@@ -13,14 +13,15 @@ use serde::Serialize;
 use block::Block;
 use machine::Machine;
 
-/// Phases of a time step in their order.
+/// Phases of a time step, in the order of computation.
 pub const PHASES: [&str; 6] = ["sort", "list", "boundary densities", "rates", "predict", "correct"];
 
-/// Arithmetic operations per pair of particles: the distance and the terms of equations (1) to (5) in
-/// `docs/methods.md`. A fused multiply-add counts as two. SIMD lanes outside the support do not count.
+/// Number of arithmetic operations per pair of particles, for the distance and the terms of equations (1) to (5) in
+/// `docs/methods.md`. A fused multiply-add counts as two operations. Operations for pairs outside the kernel support do
+/// not count.
 pub const FLOPS_PER_PAIR: f64 = 47.0;
 
-/// One measurement.
+/// Result of one measurement.
 #[derive(Debug, Clone, Serialize)]
 pub struct Measurement {
     /// Motion of the water: `"still"` or `"moving"`.
@@ -33,37 +34,39 @@ pub struct Measurement {
     pub water_particles: usize,
     /// Mean number of neighbours of a water particle within the support of the kernel.
     pub neighbours_mean: f64,
-    /// Share of SIMD lanes with a particle pair within the support [-]; NaN on a graphics card.
+    /// Share of the computed pairs (one per SIMD lane) that are within the kernel support [-]; NaN on a graphics card.
     pub useful_lanes: f64,
     /// Number of measured time steps.
     pub steps: u32,
-    /// Evaluations of all particles per second of whole time steps, two per particle and time step. With mDBC, the
-    /// density of a boundary particle is evaluated once per time step, but counts as two evaluations.
+    /// Number of particle evaluations per second, over whole time steps: two per particle and time step, for water and
+    /// boundary. mDBC evaluates a boundary particle only once per time step, but this evaluation counts as two.
     pub full_evaluations_per_s: f64,
-    /// Evaluations of water particles only, per second of whole time steps.
+    /// Number of evaluations of water particles alone per second, over whole time steps.
     pub water_evaluations_per_s: f64,
-    /// Particle pairs within the support, evaluated per second of whole time steps.
+    /// Number of evaluated particle pairs within the kernel support per second, over whole time steps.
     pub pairs_per_s: f64,
-    /// Arithmetic operations of the pairs within the support over the measured peak of the threads [-].
+    /// Arithmetic operations per second for the pairs within the kernel support over whole time steps, divided by the
+    /// measured peak speed with the same number of threads [-].
     pub share_of_peak: f64,
-    /// Arithmetic operations of the pairs over the measured peak, during the phase "rates" only [-].
+    /// The same ratio as `share_of_peak`, but for the time of the phase "rates" alone [-].
     pub share_of_peak_in_rates: f64,
-    /// Lower bound of the memory traffic over the measured bandwidth of the threads [-].
+    /// Lower bound of the memory traffic per second, divided by the measured bandwidth with the same number of threads
+    /// [-].
     pub share_of_bandwidth: f64,
     /// Memory of the solver and of the particle state, per particle [bytes].
     pub bytes_per_particle: f64,
-    /// Time of each phase of the time step.
+    /// Duration of each phase of a time step.
     pub phases: Vec<Phase>,
 }
 
-/// Time of a phase.
+/// Duration of a phase.
 #[derive(Debug, Clone, Serialize)]
 pub struct Phase {
     /// Name of the phase.
     pub name: &'static str,
-    /// Share of the time step [-].
+    /// Share of the duration of a time step [-].
     pub share: f64,
-    /// Time per particle and time step [ns].
+    /// Duration per particle (water and boundary) and time step [ns].
     pub ns_per_particle: f64,
 }
 
@@ -82,7 +85,7 @@ pub fn measure(
 }
 
 fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machine) -> Measurement {
-    // The first time step allocates memory, the second one warms up the caches.
+    // Two time steps are not measured: the first allocates memory, the second fills the caches.
     let mut times = [Duration::ZERO; PHASES.len()];
     block.step(&mut times);
     block.step(&mut times);
@@ -117,7 +120,7 @@ fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machi
     }
 }
 
-/// Converts the total times of the phases over `steps` time steps to shares and times per particle.
+/// Converts the total duration of each phase in `steps` time steps to its share and its duration per particle.
 fn phases_of(times: &[Duration; PHASES.len()], steps: u32, particles: usize) -> Vec<Phase> {
     let total: f64 = times.iter().map(Duration::as_secs_f64).sum();
     let phase = |(name, time): (&&'static str, &Duration)| Phase {

@@ -23,14 +23,14 @@ pub struct Tank {
     pub solver: Solver,
     /// The water.
     pub water: Water,
-    /// Bed, walls and unit.
+    /// Boundary particles of bed, walls and unit.
     pub boundary: Boundary,
 }
 
 impl Tank {
     /// Creates a tank with the given length, width and mean depth [m]. Its walls are 1.5 times as high as the depth.
     /// `surface` is the initial surface level z(x) [m] and `velocity` the initial velocity v(x, z) [m/s]. `unit` lists
-    /// the particles of the only unit; empty if the tank has no unit.
+    /// the boundary particles of a unit; it is empty if the tank has no unit.
     pub fn new(
         instructions: InstructionSet,
         parameters: Parameters,

@@ -50,7 +50,7 @@ impl FromStr for DeviceChoice {
 }
 
 impl DeviceChoice {
-    /// Returns the device with this name, as stored in checkpoints, or `Auto` if the device is not available.
+    /// Returns the device with the given name, which a checkpoint stores, or `Auto` if there is no such device.
     pub fn named(name: &str) -> Self {
         if name == PROCESSOR {
             return Self::Cpu;
@@ -75,11 +75,11 @@ pub enum Device {
 }
 
 impl Device {
-    /// Opens the requested device. If `Auto` has to use the processor, the second result is the reason. `scheme` names
-    /// the part of the numerical scheme that graphics cards do not support, if any.
+    /// Opens the requested device. The second result is the reason why `Auto` uses the processor, if it does. `scheme`
+    /// names the part of the numerical scheme that graphics cards do not support, if any.
     ///
     /// # Errors
-    /// If a graphics card is requested that does not exist or cannot be used.
+    /// If the requested graphics card does not exist or cannot be used.
     pub fn open(choice: DeviceChoice, scheme: Option<&'static str>) -> Result<(Self, Option<String>), DeviceError> {
         match choice {
             DeviceChoice::Cpu => Ok((Self::Cpu, None)),
@@ -142,7 +142,8 @@ impl Device {
         }
     }
 
-    /// Creates the solver with bins in the box from `low` to `high`; no particle may leave the box `bounds` [m].
+    /// Creates the solver with bins in the box from `low` to `high` [m]. All particles must stay in the box `bounds`
+    /// [m].
     ///
     /// # Errors
     /// If the device does not support the numerical scheme.
@@ -150,7 +151,7 @@ impl Device {
         &self,
         parameters: Parameters,
         [low, high]: [DVec3; 2],
-        // On the processor the simulation checks the bounds in its own arrays.
+        // Not used for the processor: there, the simulation checks the positions in its own arrays.
         #[cfg_attr(not(feature = "gpu"), allow(unused_variables))] bounds: [DVec3; 2],
     ) -> Result<Box<dyn Backend>, DeviceError> {
         match self {
@@ -185,7 +186,7 @@ mod tests {
             (antuono, "density_diffusion"),
         ] {
             assert!(unsupported_on_gpu(&parameters).is_some_and(|what| what.contains(key)), "{key}");
-            // An explicit GPU is refused; `Auto` falls back to the processor and gives the reason.
+            // `gpu:0` is refused with an error. `auto` uses the processor and gives the reason.
             let refused = Device::open(DeviceChoice::Gpu(0), unsupported_on_gpu(&parameters)).unwrap_err().to_string();
             assert!(refused.contains(key) && refused.contains("--device cpu"), "{refused}");
             let (device, reason) = Device::open(DeviceChoice::Auto, unsupported_on_gpu(&parameters)).unwrap();

@@ -1,10 +1,10 @@
 //! Tip of a dam break: Koshizuka & Oka (1996), a column of width L and height 2L, here with L = 1 m.
 //!
-//! The measured points are those of Martin & Moyce (1952) with a = 57 mm, scaled to L = 1 m. These points lag behind
-//! every exact solution: from the second point on, the tip of inviscid water without a gate, [`POTENTIAL_FLOW`], is 10
-//! to 18 % or 49 to 65 ms ahead of the measured points. No single time lag fits both the first and the second point.
-//! The tests therefore compare the run with the exact solution, and with the measurement after one time lag for all
-//! points.
+//! The measured points are those of Martin & Moyce (1952) with a column 57 mm wide, scaled to L = 1 m. These points lag
+//! behind every exact solution: from the second point on, the tip of inviscid water without a gate, [`POTENTIAL_FLOW`],
+//! is 10 to 18 % (49 to 65 ms) ahead of the measured points. No single time lag fits both the first and the second
+//! point. The tests therefore compare the run with the exact solution, and with the measurement after one time lag for
+//! all points.
 
 use std::{path::Path, sync::Arc};
 
@@ -15,7 +15,7 @@ use super::data;
 const TABLE: &str = "koshizuka_oka1996.csv";
 const SERIES: &str = "koshizuka_oka1996/dam_tip_position.txt";
 
-/// End of the comparison [s]; with the measured lag, the tip has not reached the end wall at 4 m.
+/// End of the comparison [s]. Because of its time lag, the measured tip has not yet reached the end wall at 4 m.
 const LATEST: f64 = 0.7;
 
 /// Time between two values of [`POTENTIAL_FLOW`] [s].
@@ -31,7 +31,7 @@ const POTENTIAL_FLOW: [f64; 37] = [
     3.4755, 3.6070, 3.7405, 3.8758, 4.0130, 4.1519, 4.2926, 4.4349, 4.5789,
 ];
 
-/// Returns measured times [s] and tip positions [m] from each source.
+/// Returns measured times [s] and tip positions [m] from each source: the table, and the full series if it exists.
 ///
 /// The same tolerance applies to both sources. The times of the table are within 0.01 s of published points, so linear
 /// interpolation changes the largest deviation from potential flow by at most 0.2 %.
@@ -143,9 +143,9 @@ fn compare(dp: f64) -> (f64, f64) {
 #[test]
 fn dam_break_tip_follows_potential_flow_coarse() {
     let (from_exact, from_measured) = compare(0.02);
-    // Reached: 2.5 %.
+    // Reached: 2.5 % from potential flow.
     assert!(from_exact < 0.035);
-    // Target: 3 %; reached: 2.1 %.
+    // Target: 3 % from the measurement; reached: 2.1 %.
     assert!(from_measured < 0.03);
 }
 
@@ -156,6 +156,6 @@ fn dam_break_tip_follows_potential_flow_coarse() {
 fn dam_break_tip_follows_potential_flow_fine() {
     let [(coarse, _), (fine, from_measured)] = [0.01, 0.005].map(compare);
     assert!(fine < coarse);
-    // Target: 3 %; reached with dp = 0.01 m: 1.9 %.
+    // Target: 3 % from the measurement; reached with dp = 0.01 m: 1.9 %.
     assert!(from_measured < 0.03);
 }

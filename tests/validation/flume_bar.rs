@@ -170,7 +170,7 @@ fn waves_over_the_bar_agree_with_the_measurement() {
 #[test]
 #[ignore = "1 minute: cargo test --release --test validation -- --ignored --nocapture flume_bar"]
 fn waves_over_the_bar_agree_with_the_measurement_for_three_layers() {
-    // Reached skills, rounded down, as with two layers.
+    // The limits are the reached skills, rounded down, as for two layers.
     for [uncorrected, corrected] in compare(3, 0.0125) {
         assert!(mean(&uncorrected) > 0.78 && uncorrected.iter().all(|skill| *skill > 0.6));
         assert!(mean(&corrected) > 0.8 && corrected.iter().all(|skill| *skill > 0.66));

@@ -244,7 +244,7 @@ fn differences_from_laboratory(height: f64, depth_m: f64, name: &str, times: &[f
 #[test]
 fn profiles_on_the_beach_agree_with_the_laboratory() {
     let cases = [
-        // Neighbouring points of a profile differ by up to 0.25 H for the low wave and 0.1 H for the high wave.
+        // Limits 0.25 H for the low wave and 0.1 H for the high wave: neighbouring measured points differ by as much.
         (0.0185, 0.30, "0_0185", [30.0, 40.0, 50.0, 60.0, 70.0].as_slice(), 0.25),
         (0.30, 0.16, "0_3", &[15.0, 20.0, 25.0, 30.0], 0.1),
     ];
@@ -306,7 +306,7 @@ fn median_error(run_ups: &[RunUp]) -> f64 {
 /// Computes the waves of the table: every twelfth measurement with H/d > 0.03. Lower waves take longer to compute.
 #[test]
 fn run_up_follows_the_laboratory() {
-    // Limit 10 %: measurements of equal waves differ by up to 13 % (H/d = 0.009).
+    // Limit 10 % for the median error: measurements of equal waves differ by up to 13 % (H/d = 0.009).
     assert!(median_error(&run_ups(&data::table("synolakis1987_run_up.csv"))) < 0.1);
 }
 

@@ -101,6 +101,6 @@ fn density_diffusion_smooths_the_wall_pressure() {
     // Without diffusion the run fails at the impact, 0.8 s after the start.
     let Err(Failure::Density { time, .. }) = without_diffusion else { panic!("the run without diffusion should fail") };
     assert!((0.75..1.0).contains(&time), "{time}");
-    // Reached: 23 %, nearly all of it below 50 Hz.
+    // Reached: noise of 23 % of the mean pressure, nearly all of it below 50 Hz.
     assert!(default_noise < 0.3);
 }

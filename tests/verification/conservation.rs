@@ -38,7 +38,8 @@ fn a_dam_break_keeps_its_mass_and_gains_no_energy() {
         });
         let end = dam.energy();
         println!(
-            "dam break, {slip}: total {:.1} to {last:.1} J, largest rise above an earlier value {rise:.2e} J, kinetic {:.1} J",
+            "dam break, {slip}: total {:.1} to {last:.1} J, largest rise above an earlier value {rise:.2e} J, \
+             kinetic {:.1} J",
             start.total(),
             end.kinetic
         );

@@ -101,7 +101,7 @@ fn sponge_and_radiating_end_absorb_regular_waves() {
             0.5 * (largest + smallest),
             100.0 * reflection
         );
-        // A radiating end reflects the share (1 - c/c_0) / (1 + c/c_0), with c_0 = sqrt(g d): 8 % for c / c_0 = 0.85. The
+        // A radiating end reflects the share (1 - c/c_0) / (1 + c/c_0), with c_0 = sqrt(g d): 8 % for c/c_0 = 0.85. The
         // sponge is designed for 0.25 %; the remaining 0.75 % allow for the error of the envelope.
         assert!(reflection < most);
         assert!((0.5 * (largest + smallest) / parameters.height_m - 1.0).abs() < 0.03);

@@ -70,8 +70,8 @@ fn irregular_waves_have_their_significant_height_and_seed() {
     };
     let (case, record) = run_wave(&sea(1), 70.0);
     println!("H_s = {:.4} m at 4 m", significant(&record));
-    // The evaluated 64 s are one full repetition of the sea. Limit 10 %: the shortest waves, which a cell of 0.05 m does
-    // not resolve, contribute 4 % of the height.
+    // The evaluated 64 s are one full repetition of the sea. Limit 10 %: the shortest waves, which a cell of 0.05 m
+    // does not resolve, contribute 4 % of the height.
     assert!((significant(&record) / 0.03 - 1.0).abs() < 0.1);
     let (other, _) = run_wave(&sea(2), 1.0);
     assert_ne!(case.hash, other.hash);

@@ -70,8 +70,8 @@ fn kernel_moments_on_a_jittered_lattice_scatter_as_in_theory() {
         let deviation = rms(values.iter().map(|value| value - mean));
         let (expected, expected_deviation) = (on_a_lattice + self_term(f), spread(f));
         println!("{name} = {mean:.2e} +- {deviation:.2e}, theory {expected:.2e} +- {expected_deviation:.2e}");
-        // Limit: a tenth of the scatter. To first order, a particle's jitter cancels in the mean if all its neighbours are
-        // included, so only particles near the faces contribute.
+        // Limit: a tenth of the scatter. To first order, a particle's jitter cancels in the mean if all its neighbours
+        // are included, so only particles near the faces contribute.
         assert!((mean - expected).abs() < 0.1 * expected_deviation, "{name}");
         // Limit 15 %: effects of second order in the jitter, and the finite sample.
         assert!((deviation / expected_deviation - 1.0).abs() < 0.15, "{name}");

@@ -99,8 +99,8 @@ fn still_water_stays_still_with_all_schemes() {
             fastest / wave,
             (centre - 0.5 * depth) / dp
         );
-        // Limit 0.005 for the rms velocity divided by sqrt(g d). Reached: 0.004 with the viscosity of water, 0.0025 with
-        // DBC, at most 0.002 with the other schemes. These velocities are sound waves from the start of the run.
+        // Limit 0.005 for the rms velocity divided by sqrt(g d). Reached: 0.004 with the viscosity of water, 0.0025
+        // with DBC, at most 0.002 with the other schemes. These velocities are sound waves from the start of the run.
         assert!(rms < 0.005 && (centre - 0.5 * depth).abs() < 0.1 * dp, "{numerics}");
     }
 }

@@ -78,7 +78,8 @@ fn a_flat_tank_stays_hydrostatic() {
     let fastest = tank.water.velocity.iter().map(|v| v.length()).fold(0.0, f64::max);
     let largest = pressure.largest();
     println!(
-        "flat tank: pressure error {:.2} % of the pressure on the bed, kinetic energy {:.1e} to {:.1e} J, fastest {fastest:.4} m/s",
+        "flat tank: pressure error {:.2} % of the pressure on the bed, kinetic energy {:.1e} to {:.1e} J, fastest \
+         {fastest:.4} m/s",
         100.0 * largest,
         kinetic_energy.early,
         kinetic_energy.late

@@ -27,8 +27,8 @@ const C0: f64 = 10.0;
 const PRESSURE: f64 = 1000.0;
 
 /// Added mass over the mass of the displaced water [-], by finite elements (tools/potential-flow/tetrapod). Element
-/// sizes of 0.06, 0.03 and 0.02 unit heights at the unit give 0.583, 0.612 and 0.618 respectively. 0.622 is the extrapolation with the square of
-/// the element size.
+/// sizes of 0.06, 0.03 and 0.02 unit heights at the unit give 0.583, 0.612 and 0.618 respectively. 0.622 is the
+/// extrapolation with the square of the element size.
 const BY_POTENTIAL_FLOW: f64 = 0.622;
 
 /// Position of the fixed unit.

@@ -20,7 +20,8 @@ fn highest_water_m(record: &FlumeRecord, t: f64) -> f64 {
     wet.map(|&x| record.surface_level_m(x, t)).fold(0.0, f64::max)
 }
 
-/// Wave height [m], crests at the gauges [m], and largest velocity [m/s] and stroke of the water [m] at x = 33 m.
+/// Results of the independent calculation for a wave height [m]: crests at the gauges [m], and largest velocity [m/s]
+/// and stroke of the water [m] at x = 33 m.
 struct Expected {
     height_m: f64,
     crests_m: [f64; 8],
@@ -114,7 +115,8 @@ fn fudo_waves_have_the_crests_velocities_and_strokes_of_another_model() {
         }
         let (velocity, stroke) = (largest_velocity(&record, 33.0), stroke(&record, 33.0));
         println!("  u at 33 m {velocity:.4} m/s, stroke {stroke:.4} m");
-        // Limits 3 and 4 %: the same reason; the expected stroke has only two digits.
+        // Limits 3 % for the velocity and 4 % for the stroke, for the same reason; the expected stroke has only two
+        // digits.
         assert!((velocity / expected.velocity_m_s - 1.0).abs() < 0.03);
         assert!((stroke / expected.stroke_m - 1.0).abs() < 0.04);
     }
@@ -269,7 +271,7 @@ fn run_up_on_a_plane_beach_agrees_with_synolakis() {
     .unwrap();
     let run_up = record.times_s().iter().map(|&t| highest_water_m(&record, t)).fold(0.0, f64::max) - STILL_LEVEL_M;
     println!("R/d = {:.4}", run_up / 0.8);
-    // The limits are the scatter of the laboratory, plus the rise of the beach in a cell, 2.5 mm (0.003 d), on either
+    // The limits are the scatter of the measurements, plus the rise of the beach in a cell, 2.5 mm (0.003 d), on either
     // side.
     assert!((0.071..0.081).contains(&(run_up / 0.8)));
 }

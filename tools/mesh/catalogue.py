@@ -19,7 +19,7 @@ class Entry:
     # Mesh size [m] of the fine mesh, for results, and of the coarse mesh, for a first run and for tests.
     size: float
     coarse: float
-    # Mesh size of the base over mesh size of the unit, for the fine and the coarse mesh; None: the scene has no base.
+    # Mesh size of the base divided by mesh size of the unit, for the fine and the coarse mesh; None: no base.
     base: tuple = None
 
     def scene(self, coarse, size=None, height=None):

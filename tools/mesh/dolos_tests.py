@@ -14,7 +14,7 @@ from units import Dolos
 
 # Length of the Dolos [m] (section 3.1.1).
 HEIGHT = 1.0
-# Depth of the pre-existing cracks over the mesh size [-]: "approximately one element length" (section 3.1.3).
+# Depth of the pre-existing cracks divided by the mesh size [-]: "approximately one element length" (section 3.1.3).
 CRACK_DEPTH = 1.0
 
 # The base is a slab with a step. The upright fluke hits the slab. Stem and horizontal fluke rest on the flat top of the
@@ -30,7 +30,7 @@ SLAB = 0.10  # thickness [m]
 # part of the base, stands on the side of +x, towards which the foot moves, and extends to the end of the base.
 BLOCK = HEIGHT / 12
 
-# Mass of the cylinder over the mass of the Dolos [-] (section 3.2.1).
+# Mass of the cylinder divided by the mass of the Dolos [-] (section 3.2.1).
 CYLINDER_MASS = 1 / 5
 # Densities of concrete and steel [kg/m3] (Table 3).
 CONCRETE, STEEL = 2340.0, 7850.0

@@ -26,7 +26,7 @@ COARSE_FOLDER = REPOSITORY / "cases" / "fracture" / "meshes"
 FOLDER = REPOSITORY / "runs" / "meshes"
 # Meshes with more tetrahedra than this are written in binary, which is read faster; smaller files are shorter as text.
 MOST_IN_ASCII = 50_000
-# Mesh size given to Gmsh over the resulting mean edge length, for bodies much larger than an element.
+# Mesh size given to Gmsh, divided by the resulting mean edge length, for bodies much larger than an element.
 ASKED = 0.8
 # Smallest number of sides of a circle: the mesh of a Tetrapod then has 99 % of its volume.
 SIDES_OF_CIRCLE = 20

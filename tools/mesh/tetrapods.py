@@ -8,7 +8,7 @@ from units import Tetrapod
 
 # Height of the Tetrapod [m], equal to the height of the Dolos in the drop test.
 HEIGHT = 1.0
-# Assumed: the base extends 0.2 H beyond the feet and is 0.3 H thick.
+# Assumed, in heights H of the unit: the base extends 0.2 H beyond the feet and is 0.3 H thick.
 BASE_HALF_WIDTH = 0.85
 BASE_THICKNESS = 0.3
 

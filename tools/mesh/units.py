@@ -33,7 +33,7 @@ class Dolos:
 
     With the haunches, each crossing is a hub: the convex hull of the stem's section where the haunch begins and the
     fluke's sections where it ends. The volume is 0.1854 H^3, 2.1 % more than the 0.675 (a/H)^1.285 H^3 of a Dolos
-    without haunches: 5.42 t at Burcharth's H = 2.32 m and 2340 kg/m3; his units had 5.4 t.
+    without haunches. With Burcharth's H = 2.32 m and 2340 kg/m3, the mass is 5.42 t; his units had 5.4 t.
     """
 
     STEM, END, CHAMFER = 0.36, 0.20, 0.056
@@ -85,9 +85,10 @@ class Dolos:
 class CoreLoc:
     """Core-Loc of size C: members 0.354 C wide in the middle, 0.189 C at the ends, chamfers of 0.1146 of the width.
 
-    Two members stand upright on both sides in y; the third lies along x between them. The dimensions are assumed: with
-    them a unit of 3.31 m has the 8 m3 of section 4.1. breakwater's own Core-Loc, with 0.362 C and 0.181 C, has the same
-    volume but edges of 0.014 C where its chamfers meet. Here the shortest edges, of the chamfers at the ends, are 0.030 C.
+    Two members stand upright, one on each side in y; the third lies along x between them. The dimensions are assumed:
+    with them, a unit of 3.31 m has the 8 m3 of section 4.1 of Guo, Latham & Xiang. breakwater's own Core-Loc, with
+    0.362 C and 0.181 C, has the same volume but edges of 0.014 C where its chamfers meet. Here the shortest edges, of
+    the chamfers at the ends, are 0.030 C.
     """
 
     MIDDLE, END, CHAMFER = 0.354, 0.189, 0.1146

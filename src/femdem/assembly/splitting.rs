@@ -172,8 +172,8 @@ fn tied_neighbours<'a>(
     )
 }
 
-/// Splits the node at corner `corner` (0 to 2) of a face that is no longer tied. The node stays one if other tied faces
-/// still connect all its copies. `tied` returns true for the number of a tied interface.
+/// Splits the node at corner `corner` (0 to 2) of a face that is no longer tied. The node is not split if other tied
+/// faces still connect all its copies. `tied` returns true for the number of a tied interface.
 pub fn split(
     nodes: &mut Nodes,
     tets: &mut Tets,

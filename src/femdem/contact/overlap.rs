@@ -8,10 +8,10 @@
 //!   E = p (I_T + I_C),   I_T and I_C = integrals of phi_T and phi_C over the overlap of T and C [m3].
 //!
 //! Gradient. If the vertices move, the velocities u_T in T and u_C in C are linear in the position. phi_T moves with T,
-//! so at a fixed position d phi_T / dt = -u_T . grad phi_T. From Reynolds' theorem, the divergence theorem and phi_T =
-//! 0 on the surface of T follows, with the outward unit normal n_k of face k of C,
+//! so at a fixed position d phi_T / dt = -u_T . grad phi_T. phi_T is zero on the surface of T. With
+//! the outward unit normal n_k of face k of C, Reynolds' theorem and the divergence theorem give
 //!
-//!   dI_T/dt = sum over faces k of C of  integral of phi_T (u_C - u_T) . n_k dA over (face k inside T)  +  I_T div u_T,
+//!   dI_T/dt = sum over faces k of C of  integral of phi_T (u_C - u_T) . n_k dA over (face k inside T)  +  I_T div u_T.
 //!
 //! The forces from I_T are therefore, with the shape functions N_i^C of C and N_j^T of T,
 //!
@@ -170,8 +170,8 @@ impl Potential<'_> {
 const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 
 /// Returns the points a_j (see the comment of this module) from the vertices of the tetrahedron in any affine
-/// coordinates. In barycentric coordinates, a_0 = (0, 2, -1/2, -1/2), a_1 = (2, 0, -1/2, -1/2), a_2 = a_3 = (1/2, 1/2,
-/// 0, 0).
+/// coordinates. In barycentric coordinates, a_0 = (0, 2, -1/2, -1/2), a_1 = (2, 0, -1/2, -1/2) and
+/// a_2 = a_3 = (1/2, 1/2, 0, 0).
 fn anchors(vertices: &[DVec4; 4]) -> [DVec4; 4] {
     let middle = 0.5 * (vertices[0] + vertices[1]);
     let opposite = 0.5 * (vertices[2] + vertices[3]);

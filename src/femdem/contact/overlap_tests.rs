@@ -9,8 +9,8 @@ use crate::random::SplitMix64;
 
 type Pair = [[DVec3; 4]; 2];
 
-/// Returns random overlapping pairs, from a very small overlap to one tetrahedron inside the other. The size of T is 1
-/// m, the size of C is 0.1 to 2.1 m.
+/// Returns random overlapping pairs, from a very small overlap to one tetrahedron inside the other. The size of T is
+/// 1 m, the size of C is 0.1 to 2.1 m.
 fn random_pairs(seed: u64, count: usize) -> Vec<(Pair, Overlap)> {
     let mut random = SplitMix64::new(seed);
     let mut pairs = Vec::new();
@@ -214,8 +214,8 @@ fn contact_of_two_meshed_cubes_does_not_depend_on_the_numbering() {
     assert!((force_again - force).length() < 1e-14 && (force_back + force).length() < 1e-14);
     // Two of the six tetrahedra of each cube have a face in the contact plane. Their potential rises from 0 at this
     // face to 1 over a quarter of their height of 1 m, so its mean over the overlap is 4 depth / 2. The volume of the
-    // overlap is `depth`, so both cubes together have the energy 4 depth^2. Tolerance, in proportion to the depth:
-    // where another face is nearer, the potential is lower.
+    // overlap is `depth` times 1 m2, so both cubes together have the energy 4 depth^2. Tolerance, in proportion to the
+    // depth: where another face is nearer, the potential is lower.
     assert!((energy / (4.0 * depth * depth) - 1.0).abs() < 5.0 * depth, "{energy}");
     // The force on the upper cube points upwards. The sides of the cubes are aligned, so there is almost no lateral
     // force.

@@ -5,8 +5,8 @@
 //!
 //! A new pair may overlap from the start. This initial overlap does not count, with one exception: if a joint failed in
 //! compression, the pair takes over the elastic energy of the joint, which would otherwise be dissipated. The energy of
-//! the whole overlap is p I, with the contact penalty p, and I_b is the initial part of I that does not count. Where I
-//! > I_b, the energy E and the forces F of the pair are
+//! the whole overlap is p I, with the contact penalty p, and I_b is the initial part of I that does not count. If I
+//! exceeds I_b, the energy E and the forces F of the pair are
 //!
 //!   E = p (sqrt I - sqrt I_b)^2,   F = (1 - sqrt(I_b / I)) times the forces of the whole overlap.
 //!

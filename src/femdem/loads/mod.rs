@@ -20,7 +20,7 @@ use patch::Patch;
 /// A load.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Load {
-    /// A traction on undeformed faces.
+    /// A traction: a force of fixed direction per area of the undeformed faces.
     Traction {
         /// Exterior faces.
         faces: Vec<Exterior>,

@@ -1,15 +1,19 @@
 //! A force and a moment at a point, distributed over the faces near the point: an impact, or the load of water on a
 //! unit.
 //!
-//! Every vertex i of the tetrahedra at the loaded faces has a share w_i of the force, with sum w_i = 1 and sum w_i X_i
-//! = P, the point of action in the undeformed body. For any deformation, the resultant of the shares is then the force.
-//! It acts at p = sum w_i x_i, the point of action in the deformed body. The shares are the shares of a uniform stress,
-//! corrected by the smallest linear function of the position that moves their centre to P:
+//! Every vertex i of the tetrahedra at the loaded faces gets a share w_i of the force. X_i is its position in the
+//! undeformed body, x_i its current position, and P the given point of action in the undeformed body. The shares
+//! satisfy sum w_i = 1 and sum w_i X_i = P. For any deformation, their resultant is the given force. It acts at the
+//! point p = sum w_i x_i of the deformed body. The shares A_i / A of a uniform stress on the loaded faces
+//! are corrected by the smallest linear function of the position that moves the point of action to P:
 //!
 //! w_i = A_i / A + m_i (X_i - C) . S^-1 (P - sum A_j X_j / A),  S = sum m_i (X_i - C)(X_i - C)^T
 //!
-//! with m_i a quarter of the volume of the tetrahedron over the total volume, and C the centroid. A moment M is applied
-//! as the forces m_i theta x (x_i - c), theta = J^-1 M with the inertia J of the current positions.
+//! A_i is a third of the area of the loaded faces at vertex i, and A the area of all loaded faces. The weight m_i is a
+//! quarter of the volume of the tetrahedron of vertex i, divided by the volume of all tetrahedra at the loaded faces. C
+//! and c are the centroids, weighted by m_i, in the undeformed and in the current body. A moment M is applied as the
+//! forces m_i theta x (x_i - c) (cross product), with theta = J^-1 M. J is the inertia tensor of the weights m_i at the
+//! positions x_i.
 
 use glam::{DMat3, DVec3};
 use parry3d_f64::query::PointQuery;
@@ -20,7 +24,8 @@ use super::{Configuration, CornerForce, vertex};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::mesh::faces::Exterior;
 
-/// Number of iterations of the polar decomposition, which converges quadratically for strains of a few per cent.
+/// Number of iterations of the polar decomposition. The iteration converges quadratically, so this number is sufficient
+/// for strains of a few per cent.
 const ROUNDS: usize = 12;
 
 /// Axes in which the components of a force are given.
@@ -37,7 +42,7 @@ pub enum Axes {
 struct Corner {
     tet: u32,
     corner: u8,
-    /// Share of the force, w_i [-].
+    /// Share of the force, w_i [-]; see the comment of this module.
     share: f64,
     /// Weight m_i [-].
     weight: f64,
@@ -49,7 +54,7 @@ struct Corner {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Patch {
     corners: Vec<Corner>,
-    /// S^-1 [1/m2].
+    /// Inverse of the matrix S in the comment of this module [1/m2].
     inverse_spread: DMat3,
     axes: Axes,
     /// Force [N] and moment about the point [N m].
@@ -142,7 +147,7 @@ impl Patch {
         };
         let total: f64 = faces.iter().map(area).sum();
         for face in faces {
-            // Always found, because `tets` contains the tetrahedron of every face.
+            // `face.tet` is always found, because `tets` contains the tetrahedron of every face.
             let first = 4 * tets.partition_point(|tet| *tet < face.tet);
             for corner in face.nodes {
                 corners[first + usize::from(corner)].share += area(face) / (3.0 * total);
@@ -185,7 +190,7 @@ impl Patch {
     }
 
     /// Returns the rotation of the loaded tetrahedra since the start: the rotation in the polar decomposition of the
-    /// best affine map, by Higham's iteration (1986).
+    /// affine map that best fits the motion of the vertices. The decomposition uses Higham's iteration (1986).
     fn rotation(&self, configuration: &Configuration) -> DMat3 {
         let centroid = self.centroid(configuration);
         let moved = |corner: &Corner| outer(corner.current(configuration) - centroid, corner.arm) * corner.weight;

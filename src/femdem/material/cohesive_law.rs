@@ -255,8 +255,8 @@ impl CohesiveLaw {
         }
     }
 
-    /// Returns the part of the work of the normal stress between two calls of [`Self::respond`] that is not stored
-    /// [J/m2].
+    /// Returns the dissipated work of the normal stress between two calls of [`Self::respond`] [J/m2]: the part that is
+    /// not stored.
     fn dissipated_normal(&self, old: &PointState, new: &PointState) -> f64 {
         if new.damage == old.damage && new.secant == old.secant {
             return 0.0;
@@ -276,8 +276,8 @@ impl CohesiveLaw {
         (work + stored(old, from) - stored(new, to)).max(0.0)
     }
 
-    /// Returns the part of the work of the shear stress between two calls of [`Self::respond`] that is not stored
-    /// [J/m2]: mean stress times plastic slip. This product can be negative if the stress changes sign between the
+    /// Returns the dissipated work of the shear stress between two calls of [`Self::respond`] [J/m2]: the mean stress
+    /// times the plastic slip. This product can be negative if the stress changes sign between the
     /// calls. It is then set to zero, and the energy balance has an error of the same amount.
     fn dissipated_shear(&self, old: &PointState, new: &PointState) -> f64 {
         let (before, now) = (old.elastic_slip(), new.elastic_slip());

@@ -10,9 +10,9 @@ use super::{Body, Mesh, TriangleSet};
 /// Division of a cell of the box into tetrahedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pattern {
-    /// 6 tetrahedra around a diagonal of the cell (Kuhn 1960). The diagonal is a preferred direction of the mesh.
+    /// 6 tetrahedra around a diagonal of the cell (Kuhn 1960). The mesh then has a preferred direction, the diagonal.
     Diagonal,
-    /// 24 tetrahedra around the centre of the cell, four on each side. The mesh is the same along all axes.
+    /// 24 tetrahedra around the centre of the cell, four at each of its six sides. The mesh has no preferred axis.
     Centred,
 }
 
@@ -58,7 +58,8 @@ pub fn block(lengths: DVec3, cells: [usize; 3], pattern: Pattern) -> Mesh {
     mesh
 }
 
-/// Nodes at the corners, side centres and centres of the cells. `known` has their numbers by position in half cells.
+/// Nodes at the corners, side centres and centres of the cells. `known` contains their numbers. Its key is the position
+/// of the node, counted in half cells along each axis.
 struct Lattice {
     lengths: DVec3,
     cells: [usize; 3],
@@ -75,7 +76,7 @@ impl Lattice {
         })
     }
 
-    /// Adds a tetrahedron, and exchanges two of its nodes if its volume would be negative.
+    /// Adds a tetrahedron with nodes at four positions. Exchanges two nodes if its volume would be negative.
     fn add(&mut self, indices: [[usize; 3]; 4]) {
         let mut nodes = indices.map(|index| self.node(index));
         if triple_product(nodes.map(|node| self.mesh.nodes[node as usize])) < 0.0 {
@@ -84,7 +85,8 @@ impl Lattice {
         self.mesh.tets.push(nodes);
     }
 
-    /// Adds one tetrahedron for each path along three edges from the first corner of the cell to the last.
+    /// Adds one tetrahedron for each path along three edges of the cell from `origin`, its first corner, to the
+    /// opposite corner.
     fn cut_along_diagonal(&mut self, origin: [usize; 3]) {
         for [first, second] in [[0, 1], [1, 0], [1, 2], [2, 1], [2, 0], [0, 2]] {
             let (mut b, mut c) = (origin, origin);
@@ -95,7 +97,8 @@ impl Lattice {
         }
     }
 
-    /// Adds one tetrahedron for each edge of each side, with the centres of the side and of the cell.
+    /// Adds one tetrahedron for each edge of each side of the cell: the two ends of the edge, the centre of the side
+    /// and the centre of the cell.
     fn cut_around_centre(&mut self, origin: [usize; 3]) {
         let centre = origin.map(|index| index + 1);
         for axis in 0..3 {
@@ -142,7 +145,8 @@ mod tests {
     fn the_smallest_angle_between_faces_is_45_degrees() {
         for pattern in [Pattern::Diagonal, Pattern::Centred] {
             let quality = &prepare(block(DVec3::ONE, [1; 3], pattern)).unwrap().quality[0];
-            // The angle between a side and a plane through two opposite edges. Tolerance: rounding of the arc cosine.
+            // 45 degrees is the angle between a side of the cell and a plane through two opposite edges. Tolerance:
+            // rounding of the arc cosine.
             assert!((quality.angle_min_deg - 45.0).abs() < 1e-12, "{pattern:?}: {}", quality.angle_min_deg);
         }
     }

@@ -1,7 +1,7 @@
 //! Checks that bodies share no nodes, and that each body is one piece with a conforming mesh without overlaps.
 //!
 //! If two touching parts of a body do not share nodes, each part gets a free surface there. Such a mesh looks correct,
-//! but the body falls apart in the first time step. The checks find this error because the surface of the body then
+//! but the body falls apart in the first time step. The checks find this error, because the surface of such a body
 //! touches or intersects itself.
 
 use glam::DVec3;
@@ -15,8 +15,8 @@ use super::defect::{MeshDefect, Spot};
 use super::faces::{Exterior, Faces};
 use super::{Body, Mesh};
 
-/// Largest distance of a node that lies on a face, over the shortest edge of the surface [-]. This value is far above
-/// the rounding errors of coordinates, and far below any gap that a mesh can resolve.
+/// Distance up to which a node counts as lying on a face, over the shortest edge of the surface [-]. This value is far
+/// above the rounding errors of coordinates, and far below any gap that a mesh can resolve.
 const TOUCHING: f64 = 1e-6;
 
 /// Marks a node that no body has used yet.
@@ -47,7 +47,8 @@ pub(super) fn check_bodies_apart(mesh: &Mesh) -> Result<(), MeshDefect> {
     Ok(())
 }
 
-/// Checks that common faces connect all tetrahedra of each body. Faces of pre-cracks also connect tetrahedra.
+/// Checks that common faces connect all tetrahedra of each body. In this check, the faces of pre-cracks also connect
+/// tetrahedra.
 pub(super) fn check_one_piece(mesh: &Mesh, faces: &Faces) -> Result<(), MeshDefect> {
     // Union-find: each tetrahedron points to itself or to a lower-numbered tetrahedron of the same piece. The chain of
     // these links ends at the first tetrahedron of the piece.
@@ -171,7 +172,8 @@ mod tests {
     use super::super::prepare;
     use super::*;
 
-    /// Combines two meshes, the second one shifted, into one body (`bodies` = 1) or two bodies (`bodies` = 2).
+    /// Combines two meshes into one body (`bodies` = 1) or two bodies (`bodies` = 2). `shift` [m] moves the second
+    /// mesh.
     fn joined(mut one: Mesh, other: Mesh, shift: DVec3, bodies: usize) -> Mesh {
         let [nodes, tets] = [one.nodes.len() as u32, one.tets.len() as u32];
         one.nodes.extend(other.nodes.iter().map(|node| *node + shift));
@@ -214,7 +216,7 @@ mod tests {
 
     #[test]
     fn parts_meshed_separately_are_refused() {
-        // A bridge keeps the body in one piece, so the coincident nodes are the only defect.
+        // Two more cubes, a bridge, keep the body in one piece, so the coincident nodes are its only defect.
         let bridge = |mesh: Mesh| {
             let far = joined(mesh, cube(1), DVec3::new(1.0, 1.0, 0.0), 1);
             let mut bridged = joined(far, cube(1), DVec3::Y, 1);
@@ -248,7 +250,8 @@ mod tests {
 
     #[test]
     fn a_body_may_touch_itself_along_an_edge() {
-        // Six of eight cubes: two upper cubes that meet along an edge, on a layer of four.
+        // The body consists of six of the eight cells of a cube: the lower layer of four, and two upper cells that have
+        // only an edge in common.
         let mut mesh = cube(2);
         let keep = |at: DVec3| (at.z < 0.5) || ((at.x < 0.5) == (at.y < 0.5));
         let kept: Vec<usize> = (0..mesh.tets.len()).filter(|tet| keep(mesh.centroid(*tet))).collect();
@@ -261,7 +264,8 @@ mod tests {
 
     #[test]
     fn hanging_nodes_are_found() {
-        // One of the two tetrahedra at an interface is divided at the middle of an edge, the other is not.
+        // Two tetrahedra have the common face (0, 1, 2). The upper one is divided at the middle of an edge of this
+        // face, the lower one is not.
         let mut mesh = Mesh {
             nodes: vec![
                 DVec3::ZERO,

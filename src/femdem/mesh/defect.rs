@@ -26,8 +26,8 @@ impl fmt::Display for Spot {
 pub enum MeshDefect {
     /// All tetrahedra of a body are inverted.
     #[error(
-        "body {body:?}: all {tets} tetrahedra have a negative volume, so the mesh is mirrored; mesh the body itself instead \
-         of its reflection, or reverse the elements in Gmsh (gmsh.model.mesh.reverse)"
+        "body {body:?}: all {tets} tetrahedra have a negative volume, so the mesh is mirrored; mesh the body itself \
+         instead of its reflection, or reverse the elements in Gmsh (gmsh.model.mesh.reverse)"
     )]
     AllInverted { body: String, tets: usize },
     /// Some tetrahedra are inverted.
@@ -44,8 +44,8 @@ pub enum MeshDefect {
     Flat { body: String, count: usize, tets: usize, limit: f64, first: Spot },
     /// More than two tetrahedra share a face.
     #[error(
-        "body {body:?}: more than two tetrahedra share a face, among them {first} and {second}; overlapping volumes were \
-         meshed twice: unite them before meshing (BooleanUnion, or Coherence;)"
+        "body {body:?}: more than two tetrahedra share a face, among them {first} and {second}; overlapping volumes \
+         were meshed twice: unite them before meshing (BooleanUnion, or Coherence;)"
     )]
     CrowdedFace { body: String, first: Spot, second: Spot },
     /// Two tetrahedra fill the same space.
@@ -68,9 +68,9 @@ pub enum MeshDefect {
     Pieces { body: String, pieces: usize, second: Spot },
     /// Two nodes have the same position.
     #[error(
-        "body {body:?}: nodes {first} and {second} have the same position but are not merged ({count} such nodes); either \
-         the parts were meshed separately (use BooleanFragments or Coherence;), or the Crack plugin opened a crack (leave \
-         the crack closed and name it Physical Surface(\"crack...\"))"
+        "body {body:?}: nodes {first} and {second} have the same position but are not merged ({count} such nodes); \
+         either the parts were meshed separately (use BooleanFragments or Coherence;), or the Crack plugin opened a \
+         crack (leave the crack closed and name it Physical Surface(\"crack...\"))"
     )]
     CoincidentNodes { body: String, count: usize, first: Spot, second: Spot },
     /// A node lies on a face but is not a corner of this face.

@@ -19,7 +19,7 @@ pub const MOST_TETS: usize = u32::MAX as usize / 4;
 /// Marks a face that belongs to only one tetrahedron.
 const NONE: u32 = u32::MAX;
 
-/// The face between two tetrahedra.
+/// A face between two tetrahedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Interface {
     /// Numbers of the two tetrahedra, in ascending order.
@@ -156,7 +156,8 @@ fn partners(mesh: &Mesh, keys: &[u128]) -> Result<Vec<u32>, MeshDefect> {
     Ok(partner)
 }
 
-/// Creates the interface of two faces with the same nodes; `None` if both tetrahedra lie on the same side of the face.
+/// Creates the interface from two faces with the same nodes; `None` if both tetrahedra lie on the same side of the
+/// face.
 fn interface(mesh: &Mesh, id: u32, other: u32) -> Option<Interface> {
     let tets = [id / 4, other / 4];
     let corners = LOCAL_FACES[id as usize % 4];
@@ -164,7 +165,7 @@ fn interface(mesh: &Mesh, id: u32, other: u32) -> Option<Interface> {
     let second = mesh.tets[tets[1] as usize];
     // Every node of the face belongs to the second tetrahedron.
     let matching = nodes.map(|node| second.iter().position(|other| *other == node).unwrap_or_default() as u8);
-    // Seen from the second tetrahedron the face must run in the opposite sense, starting at any corner.
+    // The second tetrahedron must list the corners of the face in the opposite sense; it may start at any corner.
     let [a, b, c] = LOCAL_FACES[other as usize % 4];
     let opposite = [[a, c, b], [c, b, a], [b, a, c]].contains(&matching);
     opposite.then_some(Interface { tets, nodes: [corners, matching] })
@@ -238,7 +239,7 @@ mod tests {
         ) {
             let pattern = if centred { Pattern::Centred } else { Pattern::Diagonal };
             let mut mesh = block(DVec3::new(1.0, 0.7, 0.4), cells, pattern);
-            // Renumbers the corners by rotations, which keep the volume positive.
+            // Renumbers the corners of each tetrahedron by even permutations, which keep its volume positive.
             for (tet, turn) in mesh.tets.iter_mut().zip(turns.iter().cycle()) {
                 tet[..3].rotate_left(turn % 3);
                 for _ in 0..turn / 3 {

@@ -1,12 +1,12 @@
 //! Tetrahedral meshes: reading, checking, ordering, faces.
 //!
-//! [`read`] is the entry: it reads an MSH 4.1 file and returns a checked [`PreparedMesh`].
+//! [`read`] is the entry to this module: it reads an MSH 4.1 file and returns a checked [`PreparedMesh`].
 //!
 //! | file | contents |
 //! | --- | --- |
 //! | `msh` | reads MSH 4.1: named volumes are bodies, surfaces are triangle sets, curves and points are node sets |
 //! | `quality` | volume, edges, heights and angles of each body; finds inverted and flat tetrahedra |
-//! | `order` | sorts tetrahedra along a space-filling curve, and nodes by first use |
+//! | `order` | sorts tetrahedra along a space-filling curve, and nodes in the order in which tetrahedra use them |
 //! | `faces` | interior faces with their two tetrahedra, exterior faces, cracks and boundaries |
 //! | `conformity` | finds shared nodes, unconnected pieces, hanging nodes and overlaps |
 //! | `defect` | mesh defects and their error messages |
@@ -55,7 +55,7 @@ pub struct Mesh {
     pub nodes: Vec<DVec3>,
     /// Number of each node in the file.
     pub node_tags: Vec<u64>,
-    /// Nodes of each tetrahedron. Seen from the fourth, the first three are anticlockwise (positive volume).
+    /// Nodes of each tetrahedron. Seen from the fourth node, the first three are in anticlockwise order.
     pub tets: Vec<[u32; 4]>,
     /// Number of each tetrahedron in the file.
     pub tet_tags: Vec<u64>,

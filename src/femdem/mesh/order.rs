@@ -106,7 +106,7 @@ mod tests {
         let mut turned = mesh.clone();
         turned.tets.reverse();
         turned.tet_tags.reverse();
-        // In this mesh, no two centroids have the same Morton code, so the order in the file does not matter.
+        // In this mesh, no two centroids have the same Morton code, so the sorted mesh does not depend on the order.
         assert_eq!(along_curve(&turned), sorted);
     }
 
@@ -121,7 +121,8 @@ mod tests {
         for (node, tag) in sorted.nodes.iter().zip(&sorted.node_tags) {
             assert_eq!(*node, mesh.nodes[*tag as usize - 1]);
         }
-        // Range of node numbers in a tetrahedron. `block` numbers nodes by layers: the range is at least 17 x 17 = 289.
+        // `span` is the range of the node numbers of a tetrahedron. `block` numbers nodes by layers, so without sorting
+        // the range is typically more than the 17 x 17 = 289 nodes of a layer.
         let span = |tet: &[u32; 4]| tet.iter().max().unwrap() - tet.iter().min().unwrap();
         let median = |mesh: &Mesh| {
             let mut spans: Vec<u32> = mesh.tets.iter().map(span).collect();
@@ -129,6 +130,6 @@ mod tests {
             spans[spans.len() / 2]
         };
         assert!(median(&mesh) > 289 && median(&sorted) < 289, "{} -> {}", median(&mesh), median(&sorted));
-        assert_eq!(sorted.tets[0], [0, 1, 2, 3], "nodes are numbered by first use");
+        assert_eq!(sorted.tets[0], [0, 1, 2, 3], "nodes are numbered in the order of their first use");
     }
 }

@@ -13,8 +13,9 @@ use super::{Body, Mesh};
 /// about 1e-9 of its length, so rounding of the coordinates decides on which side of the face the fourth corner lies.
 const FLAT: f64 = 1e-10;
 
-/// A smaller angle between two faces of a tetrahedron [deg] gives a warning. Such slivers have an unrealistic
-/// stiffness, and their small height limits the time step. Gmsh's optimiser leaves angles of at least 10 deg.
+/// If the angle between two faces of a tetrahedron is below this limit [deg], the program warns. Such slivers have an
+/// unrealistic stiffness, and their small height limits the time step. Gmsh's optimiser leaves angles of at least 10
+/// deg.
 pub const SHARP_DEG: f64 = 5.0;
 
 /// Size and shape of the tetrahedra of one body.
@@ -47,9 +48,9 @@ impl BodyQuality {
     pub fn warning(&self) -> Option<String> {
         (self.sharp > 0).then(|| {
             format!(
-                "body {:?}: {} of {} tetrahedra have an angle between faces below {SHARP_DEG} deg; the smallest is {:.2} \
-                 deg in {}. The smallest height of the body, {:.3e} m, limits the time step. Mesh.Optimize = 1 or \
-                 Mesh.OptimizeNetgen = 1 in Gmsh removes most of these tetrahedra",
+                "body {:?}: {} of {} tetrahedra have an angle between faces below {SHARP_DEG} deg; the smallest is \
+                 {:.2} deg in {}. The smallest height of the body, {:.3e} m, limits the time step. Mesh.Optimize = 1 \
+                 or Mesh.OptimizeNetgen = 1 in Gmsh removes most of these tetrahedra",
                 self.body, self.sharp, self.tets, self.angle_min_deg, self.sharpest, self.height_min
             )
         })
@@ -126,12 +127,12 @@ fn measure_body(mesh: &Mesh, body: &Body) -> BodyQuality {
     quality
 }
 
-/// Lengths of the edges [m].
+/// Returns the lengths of the edges [m].
 fn edges([a, b, c, d]: [DVec3; 4]) -> [f64; 6] {
     [b - a, c - a, d - a, c - b, d - b, d - c].map(DVec3::length)
 }
 
-/// Outward area vectors of the faces [m2].
+/// Returns the outward area vectors of the faces [m2].
 fn area_vectors(corners: [DVec3; 4]) -> [DVec3; 4] {
     LOCAL_FACES.map(|face| {
         let [a, b, c] = face.map(|v| corners[v as usize]);
@@ -139,7 +140,7 @@ fn area_vectors(corners: [DVec3; 4]) -> [DVec3; 4] {
     })
 }
 
-/// Smallest angle between two faces [deg].
+/// Returns the smallest angle between two faces [deg] from the outward area vectors of the faces.
 fn smallest_angle_deg(areas: [DVec3; 4]) -> f64 {
     let normals = areas.map(DVec3::normalize_or_zero);
     let pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
@@ -152,7 +153,7 @@ mod tests {
     use super::super::block::{Pattern, block};
     use super::*;
 
-    /// One tetrahedron with three edges of 1 m along the axes.
+    /// Returns the mesh of one tetrahedron with three edges of 1 m along the axes: the corner of a cube.
     fn corner() -> Mesh {
         Mesh {
             nodes: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],

@@ -9,8 +9,8 @@ use crate::geometry::armour_unit::ArmourUnit;
 /// Faces of coarse meshes cut across round legs, but their nodes lie on the surface.
 const OFF_SURFACE: f64 = 0.02;
 
-/// Largest allowed relative difference in volume between mesh and unit [-]. Coarse meshes of round legs lack a few per
-/// cent of the volume.
+/// Largest allowed relative difference in volume between mesh and unit [-]. Coarse meshes of units with round legs have
+/// a few per cent less volume than the unit.
 const OFF_VOLUME: f64 = 0.06;
 
 /// Mesh of one unit in body axes, at the size of the case [m].
@@ -26,7 +26,7 @@ pub struct UnitMesh {
 /// Pose and scale of a unit; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
-    /// Rotation from body axes to the axes of space.
+    /// Rotation from body axes to axes fixed in space.
     pub rotation: DQuat,
     /// Position of the origin of the body axes [m].
     pub position: DVec3,
@@ -80,7 +80,8 @@ impl UnitMesh {
     /// Name of the body in the fracture cases.
     pub const NAME: &str = "unit";
 
-    /// Computes the mass properties as in the solver: each corner of a tetrahedron gets a quarter of its volume.
+    /// Computes the mass properties as in the solver: each corner of a tetrahedron gets a quarter of the volume of the
+    /// tetrahedron. `edge` is the mean edge length [m].
     fn measured(mesh: Mesh, volume: f64, edge: f64) -> Self {
         let mut shares = vec![0.0; mesh.nodes.len()];
         for (number, tet) in mesh.tets.iter().enumerate() {
@@ -119,13 +120,15 @@ impl UnitMesh {
     }
 
     /// Returns the angular velocity [rad/s] at which the nodes have the same angular momentum as the rigid unit. The
-    /// rigid unit has the inertia tensor per mass `inertia` in body axes [m2] and the angular velocity `omega` [rad/s].
+    /// rigid unit has the inertia tensor per mass `inertia` in body axes [m2], the angular velocity `omega` [rad/s] and
+    /// the rotation `rotation` from body axes to axes fixed in space.
     pub fn angular_velocity(&self, inertia: DMat3, rotation: DQuat, omega: DVec3) -> DVec3 {
         let in_body = rotation.inverse() * omega;
         rotation * ((self.inertia * (1.0 / self.volume)).inverse() * (inertia * in_body))
     }
 
-    /// Returns the kinetic energy [J] of the nodes with the total mass `mass` [kg] at the scale of the pose.
+    /// Returns the kinetic energy [J] of the nodes at a pose. The total mass is `mass` [kg], the velocity of the centre
+    /// of mass is `velocity` [m/s], and the angular velocity is `omega` [rad/s].
     pub fn kinetic_energy(&self, mass: f64, pose: &Pose, velocity: DVec3, omega: DVec3) -> f64 {
         let in_body = pose.rotation.inverse() * omega;
         let inertia = self.inertia * (mass * pose.scale * pose.scale / self.volume);

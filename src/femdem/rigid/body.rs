@@ -1,10 +1,10 @@
 //! Rigid bodies of tetrahedra.
 //!
 //! Mass and inertia are those of the tetrahedra; the forces act on the nodes. The centre of mass moves by central
-//! differences, like a node. The rotation of a time step is composed of rotations about the principal axes, and the
-//! angular momentum is part of the state (Dullweber, Leimkuhler and McLachlan 1997, "Symplectic splitting methods for
-//! rigid body molecular dynamics", J. Chem. Phys. 107, 5840-5851). This method is symplectic and reversible, and
-//! conserves angular momentum exactly.
+//! differences, like a node. For the rotation, the code integrates the angular momentum, not the angular velocity. The
+//! rotation in a time step is a sequence of rotations about the principal axes (Dullweber, Leimkuhler and McLachlan
+//! 1997, "Symplectic splitting methods for rigid body molecular dynamics", J. Chem. Phys. 107, 5840-5851). This method
+//! is symplectic and reversible, and conserves angular momentum exactly.
 
 use glam::{DMat3, DQuat, DVec3};
 use rayon::prelude::*;
@@ -24,7 +24,7 @@ pub struct RigidMotion {
     pub velocity: DVec3,
     /// Angular momentum about the centre of mass [kg m2/s], half a time step before the time of `orientation`.
     pub angular_momentum: DVec3,
-    /// Rotation from the principal axes to the axes of space.
+    /// Rotation from the principal axes of the body to axes fixed in space.
     pub orientation: DQuat,
 }
 
@@ -58,7 +58,7 @@ pub struct RigidBody {
     moments: DVec3,
     /// Numbers of its nodes, with their positions relative to the centre of mass in the principal axes [m].
     nodes: Vec<(u32, DVec3)>,
-    /// Nodes with prescribed velocities, as indices in `nodes`, with the numbers of their constraints.
+    /// For each node with prescribed velocities: its index in `nodes` and the number of its constraint.
     held: Vec<(u32, u16)>,
 }
 
@@ -171,8 +171,8 @@ impl RigidBody {
         }
     }
 
-    /// Returns the force [N] and the torque about the centre of mass [N m]. Sums add up each chunk of nodes first, so
-    /// the order of addition does not depend on the number of threads.
+    /// Returns the force [N] and the torque about the centre of mass [N m]. A sum is formed within each chunk of nodes
+    /// and then over the chunks, so the order of addition does not depend on the number of threads.
     fn resultant(&self, nodes: &Nodes, forces: &[[DVec3; 4]]) -> [DVec3; 2] {
         let sum_chunk = |chunk: &[(u32, DVec3)]| {
             let mut sum = [DVec3::ZERO; 2];
@@ -199,7 +199,7 @@ fn inertia(corners: &[DVec3; 4], mass: f64, about: DVec3) -> DMat3 {
     DMat3::IDENTITY * (second.x_axis.x + second.y_axis.y + second.z_axis.z) - second
 }
 
-/// Returns the orientation after a time [s] of free rotation.
+/// Returns the orientation after a free rotation of duration `dt` [s].
 fn rotate_freely(orientation: DQuat, moments: DVec3, angular_momentum: DVec3, dt: f64) -> DQuat {
     let about = |orientation: DQuat, (axis, share): (usize, f64)| {
         let angle = (orientation.inverse() * angular_momentum)[axis] / moments[axis] * share * dt;
@@ -215,7 +215,8 @@ mod tests {
     #[test]
     fn the_inertia_of_a_tetrahedron_has_its_textbook_value() {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
-        // Corner of a cube with edges of 1: I_xx about the corner is m (1 + 1) / 10.
+        // The tetrahedron is the corner of a cube with edges of 1 m. About this corner, its moment of inertia I_xx is
+        // m (1 + 1) / 10, and its product of inertia I_xy is -m / 20.
         let found = inertia(&corners, 3.0, DVec3::ZERO);
         assert!((found.x_axis.x - 0.6).abs() < 1e-15 && (found.x_axis.y + 3.0 / 20.0).abs() < 1e-15);
     }

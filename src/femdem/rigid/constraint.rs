@@ -1,9 +1,9 @@
 //! Rigid bodies with prescribed velocities at some of their points.
 //!
-//! Each prescribed velocity component of a point gives one equation c . u = prescribed component, where u is the
-//! velocity and angular velocity of the body. Equations that depend linearly on earlier equations are dropped, so at
-//! most six remain. The constraint impulse changes u so that all remaining equations hold (Gauss's principle of least
-//! constraint).
+//! Each prescribed velocity component of a point gives one equation c . u = prescribed component. The vector u contains
+//! the velocity and the angular velocity of the body; the row c depends on the position of the point. Equations that
+//! depend linearly on earlier equations are dropped, so at most six remain. The constraint impulse changes u so that
+//! all remaining equations hold (Gauss's principle of least constraint).
 
 use glam::{DMat3, DVec3};
 
@@ -16,7 +16,7 @@ const FREEDOMS: usize = 6;
 /// Velocity of a rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidVelocity {
-    /// Velocity of the centre [m/s].
+    /// Velocity of the centre of mass [m/s].
     pub velocity: DVec3,
     /// Angular velocity [rad/s].
     pub angular_velocity: DVec3,
@@ -27,7 +27,7 @@ pub struct RigidVelocity {
 pub struct Impulse {
     /// Impulse of the force [N s].
     pub force: DVec3,
-    /// Impulse of the torque about the centre [N m s].
+    /// Impulse of the torque about the centre of mass [N m s].
     pub torque: DVec3,
 }
 
@@ -145,7 +145,8 @@ mod tests {
         let row = |axis, arm, velocity| Row { axis, arm, velocity };
         let corners =
             [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(1.0, 1.0, 0.0)].map(|x| x - DVec3::new(0.5, 0.5, 1.0));
-        // Points in a plane moved along z: no rotation about x and y, all other motion unchanged.
+        // The points lie in a plane, and only their velocity along z is prescribed. The body then cannot rotate about x
+        // and y; all other motion stays as without constraints.
         let rows: Vec<Row> = corners.iter().map(|arm| row(DVec3::Z, *arm, -7.0)).collect();
         let moved = after(&rows, FREE);
         let expected =

@@ -2,7 +2,8 @@
 
 use glam::{DMat3, DVec3};
 
-/// Number of sweeps over the three planes. Off-diagonal elements converge quadratically, so six sweeps would be enough.
+/// Number of sweeps; each sweep has one rotation in each of the three coordinate planes. Off-diagonal elements converge
+/// quadratically, so six sweeps would be enough.
 const SWEEPS: usize = 12;
 
 /// Returns the principal values and axes of a symmetric matrix; the axes are columns of a right-handed matrix.
@@ -14,7 +15,8 @@ pub fn principal_axes(matrix: DMat3) -> (DVec3, DMat3) {
             if off_diagonal == 0.0 {
                 continue;
             }
-            // tan of the angle, the smaller root (Golub and Van Loan, section 8.5).
+            // t is the tangent of the rotation angle: the smaller root of t^2 + 2 tau t - 1 = 0 (Golub and Van Loan,
+            // section 8.5).
             let tau = (m.col(q)[q] - m.col(p)[p]) / (2.0 * off_diagonal);
             let t = tau.signum() / (tau.abs() + (1.0 + tau * tau).sqrt());
             let c = 1.0 / (1.0 + t * t).sqrt();

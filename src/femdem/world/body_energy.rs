@@ -17,7 +17,7 @@ pub struct BodyEnergy {
     pub joint: f64,
     /// Gravitational potential energy, zero at the start.
     pub gravity: f64,
-    /// Energy dissipated in the joints so far, including the elastic energy that contacts have taken over.
+    /// Energy dissipated in the joints so far, including the elastic energy of broken joints that contacts took over.
     pub fracture: f64,
 }
 
@@ -49,8 +49,8 @@ impl World {
         energies
     }
 
-    /// Adds the kinetic energies. `before` are the nodal velocities half a time step earlier, the current velocities
-    /// are half a time step later.
+    /// Adds the kinetic energies at the start of a time step, after the nodes have moved. `before` are the nodal
+    /// velocities half a time step before this start; the present velocities are half a time step after it.
     pub(super) fn add_kinetic_energies(&self, energies: &mut [BodyEnergy], before: &[DVec3]) {
         for (node, before) in before.iter().enumerate().filter(|(node, _)| self.nodes.constraint[*node] != RIGID) {
             let energy = 0.5 * self.nodes.mass[node] * before.dot(self.nodes.velocity[node]);

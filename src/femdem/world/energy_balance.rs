@@ -9,7 +9,8 @@ use crate::femdem::parallel::chunks::ordered_sum;
 /// Energies of a world [J]: stored at the current time, and dissipated or supplied since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct EnergyBalance {
-    /// Kinetic energy: sum of m v- v+ / 2, with the nodal velocities v- half a time step earlier and v+ later.
+    /// Kinetic energy: sum of m v- . v+ / 2 over the nodes, with the mass m and the velocities v- half a time step
+    /// before and v+ half a time step after the current time.
     pub kinetic: f64,
     /// Strain energy of the tetrahedra.
     pub strain: f64,
@@ -27,7 +28,8 @@ pub struct EnergyBalance {
     pub friction: f64,
     /// Work of constraints and loads.
     pub work: f64,
-    /// Elastic energy that joints receive when tied faces are released. Tied faces store no elastic energy.
+    /// Elastic energy that joints receive when tied faces are released. No energy of the balance supplies it, because
+    /// tied faces store no elastic energy. The total therefore subtracts it, like work.
     #[serde(rename = "freed")]
     pub released: f64,
 }
@@ -56,8 +58,8 @@ impl World {
             friction: self.contacts.scalars.friction,
             fracture: self.dissipated.fracture + self.joints.dissipated() - self.contacts.scalars.taken_over,
             gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
-            // The viscous power counts from half a time step before the current time to half a time step after it. Only
-            // the first half is in the past.
+            // The viscous power acts from half a time step before the current time to half a time step after it. Only
+            // the first half is dissipated at the current time.
             viscous: self.dissipated.viscous + 0.5 * self.dt * viscous_power,
             ..self.dissipated
         }

@@ -7,7 +7,8 @@
 //! | distance from the middle of the mesh | [`REACH`] mesh diagonals, plus the expected travel | by `check_limits` |
 //! | overlap of two tetrahedra | [`DEPTH`] times the smaller volume | by `check_limits` |
 //!
-//! Expected speed: the largest initial or prescribed speed plus gravity times time. Expected travel: its time integral.
+//! Expected speed: the largest initial or prescribed speed, plus gravity times time. Expected travel: the integral of
+//! the expected speed over time.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -16,17 +17,17 @@ use super::World;
 use crate::femdem::assembly::nodes::Nodes;
 use crate::femdem::setup::{Constraint, Setup};
 
-/// Limit of the nodal speed over the celerity of longitudinal waves [-]. The speed that the case prescribes is added to
-/// the limit. At a speed of one celerity, strains are of order one, so the material law and the strength are not valid.
+/// Limit of the nodal speed over the celerity of longitudinal waves [-]. The expected speed is added to the limit. If
+/// nodes move at the celerity relative to each other, strains are of order one, and the material law is not valid.
 pub const SPEED: f64 = 2.0;
 
-/// Limit of the distance of a node from the middle of the mesh, over the diagonal of the mesh [-]. Fragments beyond
-/// this distance have no contact any more.
+/// Limit of the distance of a node from the middle of the mesh, over the diagonal of the mesh [-]. Fragments at this
+/// distance can no longer touch other fragments.
 pub const REACH: f64 = 50.0;
 
 /// Limit of the overlap of two tetrahedra [-] as in
-/// [`Contacts::deepest_overlap`](crate::femdem::contact::pairs::Contacts::deepest_overlap). At this limit, half of the
-/// smaller tetrahedron is inside the other one, and the contact force hardly separates the two.
+/// [`Contacts::deepest_overlap`](crate::femdem::contact::pairs::Contacts::deepest_overlap). At this limit, about half
+/// of the smaller tetrahedron is inside the other one, and the contact force can no longer separate the two reliably.
 pub const DEPTH: f64 = 0.25;
 
 /// Nodes per task of the thread pool.
@@ -83,9 +84,9 @@ pub enum StepError {
 pub(super) struct Limits {
     /// Middle of the mesh [m].
     centre: DVec3,
-    /// Limit of the distance from the middle of the mesh at the start [m]. It grows with the expected travel.
+    /// Limit at time 0 of the distance from the middle of the mesh [m]. The limit grows with the expected travel.
     reach: f64,
-    /// Limit of the speed [m/s], to which the largest prescribed speed and the speed of free fall are added.
+    /// Limit of the nodal speed [m/s], without the expected speed, which is added to it.
     speed: f64,
     /// Largest initial or prescribed speed [m/s].
     prescribed_speed: f64,
@@ -142,8 +143,8 @@ impl World {
         }
     }
 
-    /// Checks that the square of the largest speed [m2/s2] does not exceed the limit. NaN speeds are found in the next
-    /// time step, because tetrahedra then have no finite volume.
+    /// Checks that the largest speed does not exceed the limit. `fastest_squared` is the square of this speed [m2/s2].
+    /// A NaN speed is found in the next time step, because a tetrahedron then has no finite volume.
     pub(super) fn check_speed(&self, fastest_squared: f64) -> Result<(), StepError> {
         let (time, limit) = (self.time, self.limits.speed_at(self.time));
         if fastest_squared <= limit * limit {

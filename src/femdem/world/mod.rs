@@ -9,8 +9,8 @@
 //! | `limits` | limits that stop an unstable run |
 //! | `snapshot` | saves and restores the state |
 //!
-//! A time step has four loops: over joints, tetrahedra, contacts and nodes. Each item writes only its own values (no
-//! scatter, no atomics), so results are bitwise equal for any number of threads. Velocities refer to half a time step
+//! A time step has four loops: over joints, tetrahedra, contacts and nodes. Each item of a loop writes only its own
+//! values, so results are bitwise equal for any number of threads. Velocities refer to half a time step
 //! before the time of the positions (central differences; eqs. 9 and 10).
 
 use glam::DVec3;
@@ -102,7 +102,7 @@ impl World {
         let (nodes, mut tets) = splitting::assemble(&setup, |face| joints.bond[face as usize] == Bond::Tied);
         joints.mark_tetrahedra(&setup, &mut tets);
         let rigid_bodies = RigidBody::all(&setup, &nodes, &tets);
-        // With zero moduli, tetrahedra of rigid bodies have no forces.
+        // With zero moduli, the tetrahedra of rigid bodies exert no forces.
         let moduli_of = |body: &Body| if body.rigid { Moduli::default() } else { Moduli::from(&body.elastic) };
         let moduli = setup.bodies.iter().map(moduli_of).collect();
         let count = setup.tets.len();
@@ -144,7 +144,7 @@ impl World {
     /// Advances the world by one time step.
     ///
     /// # Errors
-    /// If a tetrahedron is inverted, or a node is too fast or not finite.
+    /// If a tetrahedron is inverted, a node is too fast, or the position of a node is not finite.
     pub fn step(&mut self) -> Result<(), StepError> {
         self.advance(false, None).map(|_| ())
     }
@@ -187,7 +187,8 @@ impl World {
             self.add_kinetic_energies(bodies, &before);
         }
         balance.kinetic = kinetic;
-        // The balance at the start of this time step includes half of the work of this time step.
+        // `work` is done from half a time step before the start of this time step to half a time step after it. The
+        // balance at the start includes only the first half.
         balance.work += 0.5 * work;
         self.dissipated.viscous += self.dt * viscous_power;
         self.dissipated.work += work;

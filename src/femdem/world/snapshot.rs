@@ -34,7 +34,8 @@ pub struct Snapshot {
     pub failed_at: Vec<f64>,
     /// For each broken face, 1 if it broke mainly by sliding, else 0.
     pub failed_by_sliding: Vec<u8>,
-    /// For each broken face, the energy that it dissipated and its elastic energy at the release [J].
+    /// For each broken face, the energy that its joint dissipated, and the elastic energy of the joint when its tied
+    /// face was released [J].
     pub failed_energy: Vec<[f64; 2]>,
     /// Motion of each rigid body, see [`RigidMotion::to_array`].
     pub rigid: Vec<[f64; 13]>,
@@ -127,8 +128,8 @@ impl World {
         Ok(())
     }
 
-    /// Creates the record of a face that broke at a time [s]. `energy` is the energy that the face dissipated and its
-    /// elastic energy at the release [J].
+    /// Creates the record of a face that broke at a time [s]. `energy` contains the energy that its joint dissipated,
+    /// and the elastic energy of the joint when its tied face was released [J].
     pub(super) fn failure(&self, interface: u32, time: f64, by_sliding: bool, energy: [f64; 2]) -> Failure {
         let corners = joints::corners(&self.setup, interface as usize);
         let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;

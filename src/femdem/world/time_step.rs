@@ -1,9 +1,11 @@
 //! The limit of the time step.
 //!
-//! With mass lumping, the largest angular frequency omega of a mesh is at most the frequency of its stiffest element
-//! with its own share of the masses (Irons). Joints increase the largest eigenvalue of a tetrahedron by at most twice
-//! their stiffness at a vertex. The limit for central differences is 2 / omega. With the viscous damping rate gamma,
-//! the limit is (2 / omega) (sqrt(1 + xi^2) - xi), xi = gamma / (2 omega).
+//! With lumped masses, the largest angular frequency omega of a mesh is at most the largest angular frequency of any of
+//! its elements as a free body, with its own share of the nodal masses (Irons). Joints and contacts act as springs at
+//! the vertices of a tetrahedron. They increase omega^2 by at most 2 k / m. m is the mass at a vertex, and k is the
+//! stiffness of the joints at a vertex or of the contact there, whichever is larger. The limit of the time step for
+//! central differences is 2 / omega. With the viscous damping rate gamma and xi = gamma / (2 omega), it is
+//! (2 / omega) (sqrt(1 + xi^2) - xi).
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -12,7 +14,8 @@ use super::World;
 use crate::femdem::element::Shape;
 use crate::femdem::material::Elastic;
 
-/// Number of power iterations. This number gives the largest of twelve eigenvalues to one per cent.
+/// Number of power iterations. With this number, the largest of the twelve eigenvalues of a tetrahedron is accurate to
+/// 1 %.
 const ROUNDS: usize = 40;
 /// Safety factor for the remaining error of the power iteration [-].
 const EIGENVALUE_SAFETY: f64 = 1.02;
@@ -35,8 +38,8 @@ impl World {
             }
             let contact = contact_stiffness(shape, body.contact_penalty);
             if body.rigid {
-                // For a rigid body, only contact limits the time step. The limit for the free tetrahedron is
-                // sufficient, because a contact force accelerates the whole body less.
+                // For a rigid body, only contact limits the time step. The limit for a free tetrahedron is safe,
+                // because a contact force accelerates the whole body less than a free tetrahedron.
                 let touches = contact > 0.0 && self.setup.outer.binary_search(&(t as u32)).is_ok();
                 return if touches { stable_step(2.0 * contact / mass, 0.0) } else { f64::INFINITY };
             }
@@ -67,18 +70,20 @@ pub fn element_damping_rate(shape: &Shape, elastic: &Elastic) -> f64 {
 
 /// Returns the contact stiffness at a vertex of a tetrahedron whose largest face is in contact [N/m].
 ///
-/// The contact potential rises from 0 to 1 over a quarter of the height H. Two flush tetrahedra with overlap depth d
-/// have the energy p 4 d^2 / H and the stiffness 8 p / H per unit of area. Each vertex gets a third of the face.
+/// The contact potential rises from 0 to 1 over a quarter of the height H. Two tetrahedra of this height,
+/// whose faces lie on each other with the overlap depth d, have the energy p 4 d^2 / H and the stiffness 8 p / H per
+/// unit of area, with the penalty p. Each vertex gets a third of the area of the face.
 pub fn contact_stiffness(shape: &Shape, penalty: f64) -> f64 {
-    // For face k, |grad N_k| = 1 / H along the normal, and V = A H / 3.
+    // For the face opposite to vertex k, with the area A, |grad N_k| = 1 / H. V / H is A / 3, because V = A H / 3.
     let steepest = shape.gradients().into_iter().map(|gradient| gradient.length()).fold(0.0, f64::max);
     8.0 * penalty * steepest * (shape.volume * steepest)
 }
 
-/// Returns the largest eigenvalue of B^T C B for a stress C(strain), in the unit of C per m2.
+/// Returns the largest eigenvalue of B^T C B, in the unit of C per m2. B is the matrix that computes the strain from
+/// the displacements of the vertices. `stress` is the linear function C, which computes the stress from the strain.
 fn largest_eigenvalue(shape: &Shape, stress: impl Fn(DMat3) -> DMat3) -> f64 {
     let gradients = shape.gradients();
-    // The start vector has no symmetry, so that it contains a part of every eigenvector.
+    // The start vector has no symmetry, so it contains a part of every eigenvector.
     let mut u = [0.3, -0.7, 1.0, -0.6].map(|a: f64| DVec3::new(a, a * a - 0.4, 0.5 - a));
     let mut largest = 0.0;
     for _ in 0..ROUNDS {

@@ -40,7 +40,7 @@ fn header(run: &FractureFolder) -> String {
 
 fn joints_in_words(run: &FractureFolder) -> &'static str {
     match run.case.setup.bodies.iter().find_map(|body| body.cohesion) {
-        Some(cohesion) if cohesion.tied => "cracks along element faces; faces are tied until the stress reaches the strength",
+        Some(cohesion) if cohesion.tied => "cracks along element faces; faces stay tied up to the strength",
         Some(_) => "cracks along element faces; all faces have joints from the start",
         None => "no body can crack",
     }
@@ -117,7 +117,8 @@ fn energy(run: &FractureFolder) -> String {
         format!(" The cracks dissipated {} times the product of crack area and fracture energy.", short(ratio, 3))
     });
     let content = format!(
-        "<p>Stored energy, and energy dissipated and supplied since the start. The gravity energy is zero at the start.</p>\n\
+        "<p>Stored energy, and energy dissipated and supplied since the start. The gravity energy is zero at the \
+         start.</p>\n\
          <figure>{chart}</figure>\n<figure>{}<figcaption>Dissipated and released energy only.</figcaption></figure>\n\
          <figure>{}<figcaption>Error of the energy balance: stored plus dissipated minus supplied energy, minus the \
          initial value of this sum. The error is at most {} % of the peak kinetic energy.{per_area}\

@@ -191,7 +191,8 @@ fn gauge_table(summary: &Summary) -> String {
         .collect();
     format!(
         "<div class=\"scroll\"><table>\n<thead><tr><th>Gauge</th><th>x [m]</th><th>Crest, particles [cm]</th>\
-         <th>Crest, flume model [cm]</th><th>Particles minus flume model [%]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+         <th>Crest, flume model [cm]</th><th>Particles minus flume model [%]</th></tr></thead>\n\
+         <tbody>\n{rows}</tbody></table></div>\n"
     )
 }
 

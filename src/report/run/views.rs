@@ -25,7 +25,8 @@ pub fn views(run: &RunFolder) -> String {
     let sides = if run.summary.side_walls { "with side walls" } else { "periodic across the flume" };
     html += &format!(
         "<figure>{}<figcaption>Top view, {sides}. Outlines: initial positions. Solid: final positions. Arrows: \
-         displacements. Thin lines: corners of the bed profile, such as toes and crest edges of the mound.</figcaption></figure>\n",
+         displacements. Thin lines: corners of the bed profile, such as toes and crest edges of the mound.\
+         </figcaption></figure>\n",
         top_view(run, x, &ends)
     );
     html

@@ -14,7 +14,7 @@ use crate::sph::solver::backend::DeviceError;
 /// Largest number of workgroups of a dispatch in one dimension that every card supports.
 const MAX_GROUPS: u64 = 65_535;
 
-/// `VK_MEMORY_HEAP_DEVICE_LOCAL_BIT`.
+/// The flag `VK_MEMORY_HEAP_DEVICE_LOCAL_BIT` of Vulkan, for memory regions of the card itself.
 #[cfg(not(target_vendor = "apple"))]
 const DEVICE_LOCAL: u32 = 1;
 
@@ -61,7 +61,7 @@ fn adapters() -> Vec<wgpu::Adapter> {
     let instance = Instance::default();
     let mut adapters =
         pollster::block_on(instance.enumerate_adapters(Backends::VULKAN | Backends::METAL | Backends::DX12));
-    // Discrete cards first, then integrated ones, software renderers last.
+    // The order is: discrete cards, virtual cards, integrated cards, other cards, software renderers.
     adapters.sort_by_key(|adapter| match adapter.get_info().device_type {
         DeviceType::DiscreteGpu => 0,
         DeviceType::VirtualGpu => 1,
@@ -84,7 +84,8 @@ fn describe(adapter: &wgpu::Adapter) -> CardInfo {
     }
 }
 
-/// Returns the size of the largest device-local heap that Vulkan reports [bytes]; cards also list heaps of host memory.
+/// Returns the size of the largest memory region of the card that Vulkan reports [bytes]. Vulkan also reports regions
+/// of host memory, which do not count.
 fn memory_of(adapter: &wgpu::Adapter) -> Option<u64> {
     #[cfg(not(target_vendor = "apple"))]
     // SAFETY: the handles are used only to query the heap sizes, while the adapter is alive.
@@ -222,8 +223,8 @@ impl Card {
         buffer
     }
 
-    /// Writes `values` to a buffer from index `first` on. The card does this before any command that is submitted
-    /// later.
+    /// Writes `values` to a buffer from index `first` on. The card writes them before it executes commands that are
+    /// submitted later.
     pub(super) fn write<T: Pod>(&self, buffer: &wgpu::Buffer, first: usize, values: &[T]) {
         if !values.is_empty() {
             self.queue.write_buffer(buffer, (first * size_of::<T>()) as u64, bytemuck::cast_slice(values));
@@ -281,7 +282,7 @@ impl Card {
     /// If the device is lost.
     pub(crate) fn wait(&self) -> Result<(), DeviceError> {
         self.check()?;
-        // wgpu panics if the device is lost during the wait.
+        // `poll` panics if the device is lost while it waits.
         let wait = AssertUnwindSafe(|| self.device.poll(wgpu::PollType::wait_indefinitely()));
         let waited = catch_unwind(wait).map_err(|_| self.lost("the device was lost during a wait"))?;
         waited.map_err(|error| self.lost(error))?;
@@ -293,8 +294,8 @@ impl Card {
     }
 }
 
-/// Returns the number of workgroups of `size` threads for at least `threads` threads, in two dimensions if they exceed
-/// the limit of one dimension.
+/// Returns the numbers of workgroups along x and y for at least `threads` threads, with `size` threads per workgroup.
+/// The number along y exceeds 1 only if one dimension allows too few workgroups.
 pub(crate) fn groups(threads: usize, size: usize) -> [u32; 2] {
     let all = (threads.div_ceil(size) as u64).max(1);
     let rows = all.div_ceil(MAX_GROUPS);

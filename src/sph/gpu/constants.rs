@@ -56,7 +56,7 @@ pub struct StepConstants {
 
 impl Constants {
     /// Creates the constants. `particles` are the numbers of water particles, of all boundary particles, and of the
-    /// boundary particles of bed, walls and wavemaker. No particle may leave the box `bounds` [m].
+    /// boundary particles of bed, walls and wavemaker. All particles must stay in the box `bounds` [m].
     pub fn new(parameters: &Parameters, grid: &Grid, bounds: [DVec3; 2], particles: [usize; 3]) -> Self {
         let [water, boundary, walls] = particles.map(|n| n as u32);
         let Parameters { kernel, tait, gravity, .. } = *parameters;
@@ -100,23 +100,23 @@ impl Constants {
         self.width > 0.0
     }
 
-    /// Returns the constants for rates of the water from pressure alone, without viscosity and diffusion. With
-    /// `boundary` = 0, the shader computes no rates of boundary particles.
+    /// Returns the constants with which the shader computes the rates of the water without viscosity and diffusion.
+    /// They set `boundary` to 0, so that the shader computes no rates of boundary particles.
     pub fn of_pressure_alone(self) -> Self {
         let [hydrostatic, curvature] = Diffusion::none().hydrostatic();
         Self { boundary: 0, alpha: 0.0, diffusion: 0.0, hydrostatic, curvature, ..self }
     }
 }
 
-/// Returns the coefficients of p in powers of (rho - rho0) / rho0, from the first power on [Pa]. For gamma = 7 the
-/// series is complete; for other exponents the truncation error is 1e-9 of p at a compression of 5 %.
+/// Returns the coefficients of the pressure p in powers 1 to 8 of (rho - rho0) / rho0 [Pa]. For gamma = 7, the series
+/// is exact. For other exponents, the truncation error is 1e-9 of p at a compression of 5 %.
 fn pressure_series(tait: &Tait) -> [f32; 8] {
     let binomials = binomials(tait.gamma);
     let stiffness = tait.c0 * tait.c0 * tait.rho0 / tait.gamma;
     std::array::from_fn(|k| (stiffness * binomials[k + 1]) as f32)
 }
 
-/// Returns the coefficients of c in powers of (rho - rho0) / rho0, from the zeroth power on [m/s].
+/// Returns the coefficients of the speed of sound c in powers 0 to 7 of (rho - rho0) / rho0 [m/s].
 fn sound_series(tait: &Tait) -> [f32; 8] {
     let binomials = binomials(0.5 * (tait.gamma - 1.0));
     std::array::from_fn(|k| (tait.c0 * binomials[k]) as f32)
@@ -145,7 +145,7 @@ mod tests {
             let tait = Tait { rho0: 1000.0, c0: 15.0, gamma };
             for e in [-0.05, -1e-3, 1e-6, 2e-3, 0.05] {
                 let rho = tait.rho0 * (1.0 + e);
-                // 1e-6: single-precision coefficients, and rounding of p near rho0 in double precision.
+                // Limit 1e-6: single-precision coefficients, and rounding errors of the exact p near rho0.
                 assert!((evaluate_series(&pressure_series(&tait), e) * e / tait.pressure(rho) - 1.0).abs() < 1e-6);
                 assert!((evaluate_series(&sound_series(&tait), e) / tait.sound_speed(rho) - 1.0).abs() < 1e-6);
             }

@@ -1,4 +1,4 @@
-//! Buffers on a card, and the kernels bound to these buffers.
+//! Buffers on a card, and the kernels (compiled shader functions) bound to these buffers.
 
 use super::card::{Card, CardInfo};
 use super::constants::{Constants, StepConstants};
@@ -10,14 +10,14 @@ use crate::sph::solver::backend::DeviceError;
 /// Size of a record [bytes].
 const RECORD: usize = 48;
 
-/// Memory per water particle on the card [bytes]: offset, bin, velocity, half step, rates, record, sorting and bins. It
-/// assumes as many bins as particles.
+/// Memory per water particle on the card [bytes]: offset, bin, velocity, offset and velocity at the half step, rates,
+/// record, sorting and bins. The value assumes that there are as many bins as particles.
 const BYTES_PER_PARTICLE: usize = 6 * 16 + RECORD + 3 * 4 + 2 * 2 * 4;
 
 /// Returns the largest number of particles that fits into the memory of a card.
 pub fn max_particles(card: &CardInfo) -> u64 {
     let in_one_buffer = card.largest_binding.min(card.largest_buffer) / RECORD as u64;
-    // A tenth of the memory is reserved for the system.
+    // Use at most 90 % of the memory; the rest is for the system.
     card.memory.map_or(in_one_buffer, |bytes| in_one_buffer.min(bytes / 10 * 9 / BYTES_PER_PARTICLE as u64))
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Memory {
     pub motion: wgpu::Buffer,
     pub half_offset: wgpu::Buffer,
     half_motion: wgpu::Buffer,
-    /// Rates of the water, then of the boundary in unsorted order.
+    /// Rates of the water particles, then of the boundary particles in unsorted order.
     pub rates: wgpu::Buffer,
     pub limits: wgpu::Buffer,
     pub extremes: wgpu::Buffer,
@@ -53,7 +53,7 @@ pub(super) struct Memory {
     pub boundary_records: Bound,
     pub densities: Bound,
     pub all_rates: Bound,
-    /// Writes the rates of the water from pressure alone to the half-step buffer.
+    /// Writes the rates of the water without viscosity and diffusion to the buffer `half_offset`.
     pub pressure_rates: Bound,
     pub predict: Bound,
     pub correct: Bound,
@@ -72,7 +72,7 @@ impl Memory {
         let parameters = card.uniform("parameters", constants);
         let pressure_alone = card.uniform("parameters of pressure alone", &constants.of_pressure_alone());
         let step = card.uniform("step", &StepConstants { dt: 0.0, reach: 0.0 });
-        // Create the largest buffer first: if any buffer is too large, this buffer is.
+        // Create the largest buffer first: if the card allows this buffer, it allows the smaller ones, too.
         let records = card.buffer::<[f32; RECORD / 4]>("particle records", water + boundary)?;
         let offset = card.buffer::<[f32; 4]>("water positions", water)?;
         let cell = card.buffer::<[i32; 4]>("water bins", water)?;
@@ -93,7 +93,7 @@ impl Memory {
 
         let shader = Shader::new(card, RECORDS);
         let bind = |name, buffers: &[(u32, &wgpu::Buffer)]| shader.kernel(name).bind(card, buffers);
-        // Sorting reuses the rates and half-step buffers, which are free at that time.
+        // `permute` writes to the buffers of the rates and of the half step, which are not in use during sorting.
         let permute = bind(
             "permute",
             &[
@@ -151,8 +151,8 @@ impl Memory {
             shader.kernel("correct").bind(card, &[&state_of_step[..], &[(3, &cell), (8, &extremes)]].concat());
         card.check()?;
 
-        // Offset, bin, velocity, half step, rates, record; for the boundary no half step, but vector to the surface and
-        // density.
+        // A water particle has offset, bin, velocity, offset and velocity at the half step, rates and record. A
+        // boundary particle has no half-step data, but a vector to the surface and a density.
         let of_water = water * (6 * 16 + RECORD) + Sort::bytes(water, bins);
         let of_boundary = boundary * (5 * 16 + 4 + RECORD) + Sort::bytes(boundary, bins);
         Ok(Self {
@@ -215,8 +215,8 @@ impl Memory {
 
     /// Returns the minimum memory traffic of a time step [bytes].
     pub fn min_traffic(&self) -> f64 {
-        // Vectors of four numbers per particle: twelve to sort and copy back, five in the predictor, seven in the
-        // corrector.
+        // 24 vectors of four numbers are read or written per water particle: twelve to sort and copy back, five in the
+        // predictor, seven in the corrector. Records and rates are written and read twice.
         let of_water = self.water * (24 * 16 + 2 * 2 * RECORD + 4 * 16);
         let of_boundary = self.boundary * (2 * 2 * RECORD + 6 * 16);
         (of_water + of_boundary) as f64

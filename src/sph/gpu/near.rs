@@ -1,5 +1,5 @@
-//! Water particles near surfaces. The card finds these particles. The host, which knows the exact shapes, removes their
-//! velocities towards the surfaces.
+//! Water particles near surfaces. The card finds these particles. The host, which knows the exact shapes, removes the
+//! velocity components of these particles towards the surfaces.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
@@ -11,10 +11,10 @@ use super::state::CardState;
 use crate::sph::neighbours::grid::Grid;
 use crate::sph::solver::backend::{DeviceError, NearWater, Surfaces};
 
-/// Initial capacity for particles near surfaces.
+/// Initial capacity of the buffers for particles near surfaces.
 const INITIAL_ROOM: usize = 4096;
 
-/// Allowance for rounding errors of single-precision positions along the flume [dp].
+/// Distance added to the search distance, for rounding errors of single-precision positions in a long flume [dp].
 const ALLOWANCE: f64 = 0.01;
 
 /// The struct `Surfaces` of `near.wgsl`, with the same fields in the same order.
@@ -49,7 +49,7 @@ pub(super) struct NearSearch {
     find: Kernel,
     put: Kernel,
     constants: wgpu::Buffer,
-    /// Constants for writing velocities back; `room` is the number of velocities.
+    /// Constants for writing velocities back to the card; `room` is the number of velocities.
     put_constants: wgpu::Buffer,
     memory: SearchMemory,
 }
@@ -82,8 +82,8 @@ impl NearSearch {
         Ok(())
     }
 
-    /// Executes the commands in `encoder` and finds the water near surfaces. Returns the extreme values of the time
-    /// step (see `step.wgsl`) and the particles near surfaces in ascending order of their indices.
+    /// Executes the commands in `encoder` and finds the water near surfaces. Returns the extreme values of the water
+    /// (see `extremes` in `step.wgsl`) and the particles near surfaces, in ascending order of their indices.
     pub fn find(
         &mut self,
         card: &Card,

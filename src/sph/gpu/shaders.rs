@@ -1,4 +1,5 @@
-//! The shaders. Each source file is in the folder of the Rust file with the same equations. Common code is prepended.
+//! The shaders (programs for the card). Each source file is in the folder of the Rust file with the same equations. The
+//! macro `shader!` puts the code that several shaders use before the code of each shader.
 
 use super::card::Card;
 
@@ -19,10 +20,10 @@ pub const RATES: &str =
     shader!("../parameters.wgsl", "../terms/kernel.wgsl", "../neighbours/lists.wgsl", "../pairs/rates.wgsl");
 /// Shader of predictor and corrector.
 pub const STEP: &str = shader!("../parameters.wgsl", "../solver/step.wgsl");
-/// Shader that finds the water near surfaces.
+/// Shader that finds the water near surfaces, and writes changed velocities of this water back.
 pub const NEAR: &str = shader!("../parameters.wgsl", "near.wgsl");
 
-/// A compiled function of a shader.
+/// A compiled function of a shader; in this folder, "kernel" does not mean the SPH kernel.
 #[derive(Debug)]
 pub struct Kernel {
     pipeline: wgpu::ComputePipeline,
@@ -44,11 +45,11 @@ pub struct Shader<'a> {
 }
 
 impl<'a> Shader<'a> {
-    /// Creates a shader from one of the sources above.
+    /// Creates a shader from a source, for example [`GRID`].
     pub fn new(card: &'a Card, source: &'static str) -> Self {
         let descriptor = wgpu::ShaderModuleDescriptor { label: None, source: wgpu::ShaderSource::Wgsl(source.into()) };
-        // SAFETY: the shaders are part of this crate. Threads beyond the last particle return, indices stay within
-        // their arrays, bins are clamped to the grid, and every loop ends.
+        // SAFETY: all shaders are part of this crate. In these shaders, threads beyond the last particle use no
+        // data, indices stay within their arrays, bins are limited to the grid, and every loop ends.
         let module = unsafe {
             let checks = if cfg!(debug_assertions) {
                 wgpu::ShaderRuntimeChecks::checked()
@@ -162,7 +163,7 @@ mod tests {
         assert_eq!(size_of_struct(RATES, "Parameters"), size_of::<Constants>());
         assert_eq!(size_of_struct(RATES, "Step"), size_of::<StepConstants>());
         assert_eq!(size_of_struct(NEAR, "Near"), size_of::<NearParticle>());
-        // Sizes are rounded up to whole vectors, because the shaders do not declare the trailing padding.
+        // The Rust structs end with padding that the shaders do not declare. Therefore round sizes up to 16 bytes.
         assert_eq!(size_of_struct(GRID, "Sort").next_multiple_of(16), size_of::<SortConstants>());
         assert_eq!(size_of_struct(NEAR, "Surfaces").next_multiple_of(16), size_of::<SurfaceConstants>());
     }

@@ -1,8 +1,8 @@
 //! The operations of a time step on a card.
 //!
-//! Operations append commands to a list, which the card executes when the host reads a result. The host reads the time
-//! step limits after the first evaluation of the rates. After the corrector, it reads the rates of the units and the
-//! water near surfaces.
+//! Operations append commands to a list, which the card executes when the host reads a result. After the first
+//! evaluation of the rates, the host reads the limits of the time step. After the corrector, it reads the rates of the
+//! units and the water near surfaces.
 
 use glam::DVec3;
 
@@ -26,7 +26,7 @@ use crate::sph::solver::time_step::Limits;
 /// Initial values of the buffer `extremes`; see `step.wgsl`.
 const INITIAL_EXTREMES: [u32; 5] = [0, u32::MAX, 0, 0, 0];
 
-/// Factor on the search radius, an allowance for rounding errors [-].
+/// Factor by which the search radius is increased, for rounding errors [-].
 const ROUNDING: f64 = 1.001;
 
 /// The solver on a card.
@@ -34,7 +34,7 @@ pub struct GpuSolver {
     card: Card,
     parameters: Parameters,
     grid: Grid,
-    /// Box that no particle may leave [m].
+    /// Low and high corner of the box in which all particles must stay [m].
     bounds: [DVec3; 2],
     loaded: Option<Loaded>,
     /// Bins of the sorted water; only `start` is set, by the last fetch.
@@ -68,10 +68,10 @@ impl Loaded {
 }
 
 impl GpuSolver {
-    /// Creates a solver with bins in the box from `low` to `high`; no particle may leave the box `bounds` [m].
+    /// Creates a solver with bins in the box from `low` to `high` [m]. All particles must stay in the box `bounds` [m].
     ///
     /// # Errors
-    /// If graphics cards do not support the numerical scheme.
+    /// If graphics cards do not support the numerical scheme in `parameters`.
     pub fn new(
         card: Card,
         parameters: Parameters,
@@ -96,7 +96,7 @@ impl GpuSolver {
     }
 
     /// Returns the minimum memory traffic of a time step [bytes]. The card must sort, predict and correct the state of
-    /// the water, write and read the records twice, and write and read the rates.
+    /// the water, and twice write and read the records and the rates.
     pub fn min_traffic(&self) -> f64 {
         self.loaded.as_ref().map_or(0.0, |loaded| loaded.memory.min_traffic())
     }
@@ -174,7 +174,7 @@ impl Backend for GpuSolver {
         });
     }
 
-    /// Does nothing: each particle searches the bins for its neighbours.
+    /// Does nothing: on the card, each particle searches the bins around it for its neighbours.
     fn build_neighbour_lists(&mut self, _: &Water, _: &Boundary) {}
 
     fn boundary_densities(&mut self, _: &mut Boundary) {
@@ -203,7 +203,7 @@ impl Backend for GpuSolver {
         self.upload_moving(boundary);
         let (support, h) = (self.parameters.kernel.support(), self.parameters.kernel.h);
         self.enqueue(|card, Loaded { memory, largest_speeds, .. }, encoder| {
-            // Water that is stopped at a moving surface can reach its own speed plus the speed of the surface.
+            // Where a moving surface deflects water, the water speed can increase by the speed of the surface.
             let speed = largest_speeds[0] + largest_speeds[1];
             let moved = (0.5 * dt * speed).min(h);
             let reach = (support + moved) * ROUNDING;
@@ -247,7 +247,7 @@ impl Backend for GpuSolver {
         self.enqueue(|_, Loaded { memory, .. }, encoder| memory.pressure_rates.run(encoder, groups(memory.water, 64)));
         let encoder = self.take_encoder();
         let memory = &self.loaded()?.memory;
-        // `pressure_rates` writes to the half-step buffer, which is free now.
+        // `pressure_rates` writes to the buffer `half_offset`, which is not in use at this time.
         let (rates, count) = (memory.half_offset.clone(), memory.water);
         let pressure_only = rates_of(&self.card.read(encoder, &rates, 0, count)?);
         Ok(Powers::of(water, &self.parameters.tait, &all, &pressure_only))
@@ -352,7 +352,7 @@ fn rates_of(values: &[[f32; 4]]) -> Vec<Rate> {
     values.iter().map(rate).collect()
 }
 
-/// Returns the largest length of the vectors; NaN if any of them is NaN.
+/// Returns the largest length of the vectors; NaN if any vector contains NaN.
 fn largest(vectors: &[DVec3]) -> f64 {
     vectors.iter().map(|v| v.length_squared()).fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a }).sqrt()
 }

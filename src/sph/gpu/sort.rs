@@ -1,4 +1,5 @@
-//! Stable counting sort of particles into bins on a card. It gives the same order as [`crate::sph::neighbours::grid`].
+//! Stable counting sort of particles into bins on a card. The order is the same as on the processor, see
+//! [`crate::sph::neighbours::grid`].
 
 use bytemuck::{Pod, Zeroable};
 
@@ -6,7 +7,7 @@ use super::card::{Card, groups};
 use super::shaders::{Bound, GRID, Shader};
 use crate::sph::solver::backend::DeviceError;
 
-/// Number of bins that a workgroup scans.
+/// Number of bins for which a workgroup computes the prefix sum (scan).
 const SCANNED: usize = 1024;
 
 /// The struct `Sort` of `grid.wgsl`, with the same fields in the same order.
@@ -22,9 +23,9 @@ pub(super) struct SortConstants {
 /// Buffers and kernels for sorting one group of particles.
 #[derive(Debug)]
 pub struct Sort {
-    /// Index in `order` where each bin starts, followed by the number of points.
+    /// Index in `order` where each bin starts. The last entry is the number of points.
     pub start: wgpu::Buffer,
-    /// Point indices sorted by bin; points of one bin keep their order.
+    /// Indices of the points, sorted by bin; the points of one bin keep their order.
     pub order: wgpu::Buffer,
     counts: wgpu::Buffer,
     count: Bound,
@@ -107,13 +108,13 @@ mod tests {
         let size = DVec3::new(1.4, 1.0, 1.2);
         let parameters = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
         let grid = Grid::new(DVec3::ZERO, size, parameters.dp, None);
-        // The test needs more blocks of bins than a workgroup scans at once, and points that share bins.
+        // The test needs more than 256 blocks of bins (`scan_sums` reads 256 at once), and points that share bins.
         assert!(grid.bins() > 300 * SCANNED);
         let spread = |i: u32, factor: u32| f64::from(i.wrapping_mul(factor) % 9973) / 9973.0;
         let mut points: Vec<DVec3> =
             (0..7000).map(|i| DVec3::new(spread(i, 7919), spread(i, 104_729), spread(i, 1_299_709)) * size).collect();
         points.extend((0..500).map(|i| DVec3::splat(0.5 + 1e-6 * f64::from(i % 7))));
-        // A point outside the grid.
+        // Add a point outside the grid.
         points.push(DVec3::new(-1.0, 0.5, 9.0));
         let cells: Vec<[i32; 4]> = points
             .iter()

@@ -1,4 +1,4 @@
-//! State of particles on a card, in single precision: a position is a bin and an offset in this bin.
+//! State of the particles on a card, in single precision. A position is stored as a bin and an offset in this bin.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -21,8 +21,8 @@ pub struct CardState {
     pub motion: Vec<[f32; 4]>,
 }
 
-/// Returns the bin indices of a point along x, y and z, also outside the grid, and the offset from the low corner of
-/// the bin [m].
+/// Returns the bin indices of a point along x, y and z, and the offset of the point from the low corner of this bin
+/// [m]. Points outside the grid have indices below 0 or above the last bin.
 pub fn to_cell(grid: &Grid, point: DVec3) -> ([i32; 3], [f32; 3]) {
     let from_low = grid.wrap(point) - grid.low;
     let cell = (from_low / grid.size).floor();
@@ -122,7 +122,7 @@ mod tests {
         {
             let ([x, y, z], [dx, dy, dz]) = to_cell(&grid, point);
             let back = to_point(&grid, [x, y, z, 0], [dx, dy, dz, 0.0]);
-            // 1e-9: half the last bit of an offset below 18 mm.
+            // Limit 1e-9 m: half the last bit of an offset of up to 18 mm, the size of a bin.
             assert!((back - point).abs().max_element() < 1e-9, "{point} {back}");
         }
     }

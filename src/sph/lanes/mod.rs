@@ -1,5 +1,5 @@
-//! Single-precision SIMD lanes, and the traits for physical terms that are written once for scalars and lanes of any
-//! width.
+//! Single-precision SIMD lanes (one instruction computes all lanes), and the traits with which each physical term is
+//! written once, for scalars and for any number of lanes.
 //!
 //! [`InstructionSet::dispatch`] is the only function that selects code for the present processor.
 
@@ -28,7 +28,7 @@ pub trait Real:
     fn splat(value: f32) -> Self;
     /// Returns self * a + b.
     fn mul_add(self, a: Self, b: Self) -> Self;
-    /// Returns the square root, accurate to one unit in the last place. The root of zero is zero or a tiny number.
+    /// Returns the square root; the error is at most one unit in the last place. The result for zero is at most 1e-14.
     fn sqrt(self) -> Self;
     /// Returns the larger value.
     fn max(self, other: Self) -> Self;
@@ -36,7 +36,7 @@ pub trait Real:
     fn min(self, other: Self) -> Self;
     /// Returns the absolute value.
     fn abs(self) -> Self;
-    /// Returns the nearest integer, ties to even.
+    /// Returns the nearest integer; halves are rounded to the even integer.
     fn round(self) -> Self;
     /// Returns self in lanes where `switch` > 0, and zero in the other lanes.
     fn where_positive(self, switch: Self) -> Self;
@@ -69,7 +69,7 @@ impl Real for f64 {
     }
 }
 
-/// SIMD lanes, eight or sixteen.
+/// A group of eight or sixteen SIMD lanes.
 pub trait Lanes: Real {
     /// Number of lanes, and of particles in a full cluster.
     const COUNT: usize;
@@ -83,15 +83,15 @@ pub trait Lanes: Real {
     /// [`Self::COUNT`] entries. The remaining entries up to [`Self::COUNT`] are undefined.
     fn list_set_bits(bits: u32, base: u32, out: &mut [u32]);
 
-    /// Returns lanes whose values are `f` of the lane index.
+    /// Returns lanes in which lane k has the value `f(k)`.
     #[inline(always)]
     fn from_fn(f: impl FnMut(usize) -> f32) -> Self {
         Self::load(&std::array::from_fn::<f32, MAX_LANES, _>(f))
     }
 }
 
-/// A computation that is generic over the lanes. Its `run` must be `#[inline(always)]`, because only an inlined
-/// function is compiled for the instruction set of [`InstructionSet::dispatch`].
+/// A computation that is generic over the type of the lanes. Its function `run` must be `#[inline(always)]`, because
+/// only an inlined function is compiled for the instruction set that [`InstructionSet::dispatch`] selects.
 pub trait WithLanes {
     /// Result of the computation.
     type Output;
@@ -102,7 +102,7 @@ pub trait WithLanes {
 /// SIMD instruction set of the lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum InstructionSet {
-    /// Arrays of eight numbers, vectorised by the compiler.
+    /// Arrays of eight numbers, from which the compiler generates SIMD instructions.
     #[default]
     Portable,
     /// Eight lanes of AVX2 with FMA.
@@ -145,11 +145,12 @@ impl InstructionSet {
     pub fn dispatch<W: WithLanes>(self, work: W) -> W::Output {
         #[cfg(target_arch = "x86_64")]
         match self {
-            // SAFETY: the guard checks that the processor supports the set; the standard library caches the result.
+            // SAFETY: the condition checks that the processor supports the instruction set; the standard library caches
+            // the result of this check.
             Self::Avx2 if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") => {
                 return unsafe { x86::with_avx2(work) };
             }
-            // SAFETY: as above.
+            // SAFETY: the same as for AVX2.
             Self::Avx512 if is_x86_feature_detected!("avx512f") => return unsafe { x86::with_avx512(work) },
             _ => {}
         }
@@ -205,7 +206,7 @@ mod tests {
                 assert_eq!(lane_of(a * b), x * y);
                 assert!((lane_of(a / b) - x / y).abs() <= f32::EPSILON * (x / y).abs());
                 assert_eq!(lane_of(-a), -x);
-                // `mul_add` rounds once or twice, depending on the instruction set.
+                // Tolerance: `mul_add` rounds once or twice, depending on the instruction set.
                 assert!((lane_of(a.mul_add(b, a)) - (x * y + x)).abs() <= f32::EPSILON * (x * y).abs().max(x.abs()));
                 assert_eq!(lane_of(a.max(b)), x.max(y));
                 assert_eq!(lane_of(a.min(b)), x.min(y));

@@ -42,7 +42,7 @@ impl Lanes for Portable {
     }
 }
 
-/// [`Lanes::list_set_bits`] for eight lanes: writes all eight entries without a branch.
+/// Implements [`Lanes::list_set_bits`] for eight lanes. It writes all eight entries without a branch.
 #[inline(always)]
 pub(super) fn list_set_bits_of_byte(bits: u32, base: u32, out: &mut [u32]) {
     for (out, &bit) in out[..COUNT].iter_mut().zip(&SET_BITS[bits as usize]) {
@@ -50,7 +50,7 @@ pub(super) fn list_set_bits_of_byte(bits: u32, base: u32, out: &mut [u32]) {
     }
 }
 
-/// Positions of the set bits of every possible byte, lowest bit first.
+/// Positions of the set bits of each of the 256 bytes, lowest bit first, followed by zeros.
 static SET_BITS: [[u8; 8]; 256] = set_bits();
 
 const fn set_bits() -> [[u8; 8]; 256] {
@@ -75,7 +75,7 @@ impl Real for Portable {
     fn splat(value: f32) -> Self {
         Self([value; COUNT])
     }
-    // `f32::mul_add` is a slow library call on processors without the FMA instruction.
+    // Not `f32::mul_add`: this function is a slow library call on processors without the FMA instruction.
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b

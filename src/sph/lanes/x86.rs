@@ -1,8 +1,8 @@
-//! Lanes of AVX2 and AVX-512 registers. Plain arrays reach only a third of their speed, because the compiler turns half
-//! of the array operations into scalar instructions.
+//! Lanes of AVX2 and AVX-512 registers. Plain arrays reach only a third of the speed of these lanes, because the
+//! compiler turns half of the array operations into scalar instructions.
 //!
 //! SAFETY of every intrinsic in this file: [`Avx2`] and [`Avx512`] are used only through [`with_avx2`] and
-//! [`with_avx512`], whose callers have checked that the processor supports them.
+//! [`with_avx512`]. The callers of these two functions check that the processor supports the instructions.
 
 use std::arch::x86_64::*;
 
@@ -94,8 +94,8 @@ arithmetic!(
 );
 
 /// Sixteen lanes of an AVX-512 register. Square roots and quotients are estimates, corrected once by the residual.
-/// Their error is at most one unit in the last place. The exact instructions take longer than all other terms of a
-/// pair.
+/// Their error is at most one unit in the last place. The instructions for exact roots and quotients would take longer
+/// than all other operations for a pair of particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Avx512(__m512);
 
@@ -143,7 +143,7 @@ impl Real for Avx512 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self(unsafe {
-            // The lower bound keeps the estimate finite. Below this bound the root is practically zero.
+            // The lower bound 1e-30 keeps the estimate of 1 / sqrt(x) finite. Smaller values give the root 1e-15.
             let x = _mm512_max_ps(self.0, _mm512_set1_ps(1e-30));
             let estimate = _mm512_rsqrt14_ps(x);
             let root = _mm512_mul_ps(x, estimate);

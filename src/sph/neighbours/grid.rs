@@ -21,7 +21,7 @@ pub struct Grid {
     pub low: DVec3,
     /// Size of a bin [m].
     pub size: DVec3,
-    /// 1 / size [1/m].
+    /// Inverse of each component of `size` [1/m].
     per_size: DVec3,
     /// Number of bins along x, y and z.
     pub count: [usize; 3],

@@ -283,7 +283,7 @@ impl BoundingBox {
     }
 }
 
-/// Test whether points are within reach of a box, in single precision and with one point per lane. `reach2` is the
+/// Tests whether points are within reach of a box, in single precision and with one point per lane. `reach2` is the
 /// square of the reach, which includes an allowance for rounding errors.
 struct Near<L> {
     low: [L; 3],

@@ -79,7 +79,7 @@ pub(super) struct Constants {
     diffusion: Diffusion,
     h: f32,
     rho0: f32,
-    /// alpha of the artificial viscosity [-].
+    /// Coefficient alpha of the artificial viscosity [-].
     alpha: f32,
     /// Kinematic viscosity nu of the laminar viscosity; in Monaghan & Gingold's form K nu with K = 2 (D + 2) in D
     /// dimensions [m2/s].
@@ -105,7 +105,7 @@ pub(super) struct Near<L> {
     r: [L; 3],
     /// r_ab^2 [m2].
     r2: L,
-    /// 1 - q/2 [-].
+    /// Closeness 1 - q/2 with q = |r_ab| / h [-].
     pub(super) closeness: L,
 }
 

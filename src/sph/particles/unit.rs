@@ -14,8 +14,8 @@ const OFFSETS: u32 = 4;
 /// Returns boundary particles that fill a solid on a cubic lattice with spacing `dp` [m], in the axes of the solid.
 ///
 /// `locate` returns the surface point nearest to a given point and the distance between them [m], negative inside the
-/// solid. `low` and `high` are the corners of a box around the solid [m]. The function tries several lattice offsets
-/// and uses the one whose particle count is nearest to `volume` / dp^3. Each particle has an equal share of `volume`
+/// solid. `low` and `high` are the corners of a box around the solid [m]. The function tries 64 lattice offsets
+/// and uses the offset whose particle count is nearest to `volume` / dp^3. Each particle has an equal share of `volume`
 /// [m3].
 pub fn unit_particles(
     locate: impl Fn(DVec3) -> (DVec3, f64),

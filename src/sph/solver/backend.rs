@@ -1,7 +1,7 @@
 //! The operations of a time step, for the processor ([`Solver`]) and for a graphics card.
 //!
-//! The processor works on the water arrays of the host. A card keeps the water in its own memory ([`DeviceMemory`]). It
-//! executes the queued commands when the host reads a result.
+//! The processor works on the water arrays of the host. A card keeps the water in its own memory ([`DeviceMemory`]),
+//! and executes the queued commands when the host reads a result.
 
 use glam::DVec3;
 use thiserror::Error;

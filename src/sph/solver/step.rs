@@ -3,10 +3,13 @@
 //!
 //! sort, neighbour lists, boundary densities, rates, size of the time step, predict, rates, correct
 //!
-//! In the paper, equations 8.3, 8.4 and 9.2 have half-step values on their right-hand sides, which would count half a
-//! time step twice. As in equation 7.2 and in Parshikov et al. (2000), this code uses the values at the start of the
-//! time step:
-//! v^{n+1} = v^n + dt dv^{n+1/2}/dt, r^{n+1} = r^n + dt (v^n + v^{n+1})/2, rho^{n+1} = rho^n (2 - eps)/(2 + eps).
+//! In Mitsui et al. (2023), equations 8.3, 8.4 and 9.2 have half-step values on their right-hand sides, which would
+//! count half a time step twice. As in equation 7.2 and in Parshikov et al. (2000), this code uses the values at the
+//! start of the time step:
+//!
+//!   v^{n+1} = v^n + dt dv^{n+1/2}/dt,   r^{n+1} = r^n + dt (v^n + v^{n+1})/2,   rho^{n+1} = rho^n (2 - eps)/(2 + eps),
+//!
+//! where eps = -dt (d rho/dt) / rho at the half step.
 
 use glam::DVec3;
 use rayon::prelude::*;

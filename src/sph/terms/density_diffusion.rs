@@ -33,9 +33,9 @@ pub enum DensityDiffusion {
 pub struct Diffusion {
     /// Form of the term.
     pub kind: DensityDiffusion,
-    /// 2 delta h c0 [m2/s].
+    /// Strength of the diffusion, 2 delta h c0 [m2/s].
     strength: f32,
-    /// rho0 g / c0^2 [kg/m4].
+    /// First coefficient of the binomial series of rho^H, rho0 g / c0^2 [kg/m4]; zero for other forms than `Fourtakas`.
     hydrostatic: f32,
     /// Second coefficient of the binomial series of rho^H, (gamma - 1) g / (2 c0^2) [1/m].
     curvature: f32,

@@ -1,4 +1,4 @@
-//! Quintic Wendland kernel (Wendland 1995), support 2h.
+//! Quintic Wendland kernel W (Wendland 1995). The radius of its support is 2h.
 //!
 //! W(q) = alpha_D (1 - q/2)^4 (2q + 1), q = r/h <= 2, with alpha_D = 21 / (16 pi h^3) in three dimensions. A
 //! two-dimensional flume is a single layer of particles with thickness t. With alpha_D = 7 / (4 pi h^2 t), volumes,

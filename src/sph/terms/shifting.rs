@@ -2,7 +2,8 @@
 //!
 //!   dr = -A h |v| dt grad C,   C = sum_b V_b W_ab,
 //!
-//! from dense to sparse regions of particles. Near the free surface, where div r = sum_b V_b r_ba . grad_a W_ab is
+//! from dense to sparse regions of particles. A is a coefficient, v the velocity of the particle and C the particle
+//! concentration. Near the free surface, where div r = sum_b V_b r_ba . grad_a W_ab is
 //! smaller than in a full neighbourhood, the shift decreases to zero.
 
 use glam::DVec3;

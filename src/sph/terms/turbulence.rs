@@ -9,9 +9,9 @@
 /// Constants of the turbulence closure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Smagorinsky {
-    /// (C_s D)^2 [m2].
+    /// Factor (C_s D)^2 of the eddy viscosity [m2].
     eddy: f64,
-    /// C_I D^2 [m2].
+    /// Factor C_I D^2 of the isotropic stress [m2].
     isotropic: f64,
 }
 

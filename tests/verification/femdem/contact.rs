@@ -75,7 +75,8 @@ fn two_bars_separate_after_the_wave_returns() {
     let celerity = bar_celerity();
     // The contact lasts until the wave has travelled to the far end and back.
     let expected = 2.0 * length / celerity;
-    // The mean stress follows from momentum over duration, so it does not contain the overshoot of the wave front.
+    // The mean stress is the change of momentum divided by the duration, so it does not contain the overshoot of the
+    // wave front.
     let mean = 2340.0 * length * 0.5 * speed * 2.0 / duration;
     let stress = 2340.0 * celerity * 0.5 * speed;
     println!(
@@ -90,7 +91,7 @@ fn two_bars_separate_after_the_wave_returns() {
     );
     let separation_speed = mean_velocity(&world, 1).x - mean_velocity(&world, 0).x;
     println!("relative velocity after separation {separation_speed:.4} m/s");
-    // Target: 2 %.
+    // Target: duration of the contact within 2 % of theory.
     assert!((duration / expected - 1.0).abs() < 0.02);
     assert!(residual < 1e-2 && (momentum(&world) - start).abs() < 1e-9);
 }
@@ -121,7 +122,7 @@ fn a_sliding_block_stops_after_the_coulomb_distance() {
         }
     }
     let last = world.step_with_energies().unwrap();
-    // Coulomb friction: v^2 / (2 mu g).
+    // Sliding distance with Coulomb friction: v^2 / (2 mu g), for v = 1 m/s.
     let expected = 1.0 / (2.0 * 0.6 * 9.8);
     println!(
         "sliding distance {distance:.5} m ({expected:.5} expected), duration {rest:.4} s ({:.4}), friction {:.5} J of {:.5} J, residual {:.1e}",
@@ -130,15 +131,15 @@ fn a_sliding_block_stops_after_the_coulomb_distance() {
         first.kinetic,
         last.total() - first.total()
     );
-    // Target: 1 %.
+    // Target: sliding distance within 1 %.
     assert!((distance / expected - 1.0).abs() < 0.01);
     assert!((last.total() - first.total()).abs() < 0.01 * first.kinetic);
 }
 
 /// Returns the speed of a block on a slope [degrees] after 0.05 and 0.1 s [m/s].
 fn down_a_slope(degrees: f64) -> [f64; 2] {
-    // The viscosity damps oscillations on the contacts, because after each separation the friction springs restart from
-    // zero.
+    // The viscosity damps oscillations that would separate the bodies: after each separation, the friction springs
+    // restart from zero.
     let soft = Elastic { young_modulus: 1e8, density: 2340.0, poisson_ratio: 0.2, viscosity: 1e4 };
     let mesh = two([
         // The initial overlap is about the overlap at rest. With more overlap, the block would jump and lose contact.
@@ -169,8 +170,8 @@ fn a_block_slides_only_on_slopes_steeper_than_the_friction_angle() {
     // The friction angle is arctan 0.6 = 30.96 degrees.
     let [_, held] = down_a_slope(30.0);
     println!("{found:.4} m/s2 ({expected:.4}); at 30 degrees {held:.1e} m/s after 0.1 s");
-    // Target: 1 %.
+    // Target: acceleration within 1 % of theory.
     assert!((found / expected - 1.0).abs() < 0.01);
-    // Limit 1e-9: at rest to rounding.
+    // Limit 1e-9 m/s: rounding.
     assert!(held.abs() < 1e-9);
 }

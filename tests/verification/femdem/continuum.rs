@@ -53,7 +53,8 @@ fn a_bar_has_the_frequency_of_thin_bar_theory() {
     let expected = bar_celerity() / (2.0 * 0.5);
     let found = bar_frequency(None);
     println!("{found:.1} Hz, {expected:.1} expected ({:+.2} %)", 100.0 * (found / expected - 1.0));
-    // Target: 1 %. Lateral inertia lowers the frequency by (nu pi r / L)^2 / 2 = 0.003 %.
+    // Target: 1 %. Lateral inertia lowers the frequency by (nu pi r / L)^2 / 2 = 0.03 %, where r = 20 mm is the polar
+    // radius of gyration.
     assert!((found / expected - 1.0).abs() < 0.01);
 }
 
@@ -65,11 +66,12 @@ fn joints_make_a_bar_softer_by_their_compliance() {
         let softer = (found / plain).powi(2);
         let expected = 1.0 / (1.0 + 2.7 / penalty);
         println!("p0 = {penalty} E: E_eff / E = {softer:.4}, {expected:.4} by the rule for unstructured meshes");
-        // The rule is for unstructured meshes, where the joint area per volume times h / 3 is 2.7.
+        // The rule is for unstructured meshes, where joint area per volume times h / 3 is 2.7 (edge length h). This
+        // mesh is regular, so a tolerance is necessary.
         assert!((softer / expected - 1.0).abs() < tolerance);
     }
     let tied = bar_frequency(cohesion(2.0, true));
-    // Limit 1e-4: the time step differs, which shifts frequencies by (omega dt)^2 / 24.
+    // Limit 1e-4: the two runs have different time steps, which shift the frequency by (omega dt)^2 / 24.
     assert!((tied / plain - 1.0).abs() < 1e-4);
 }
 

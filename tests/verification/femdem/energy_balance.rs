@@ -5,11 +5,11 @@ use std::path::Path;
 
 /// Results of a run.
 struct Run {
-    /// Largest residual of the energy balance over the energy input [-].
+    /// Largest residual of the energy balance, divided by the energy input [-].
     residual: f64,
     /// Number of failed faces.
     failed: usize,
-    /// Energy dissipated by fracture and by friction, over the energy input [-].
+    /// Energy dissipated by fracture and by friction, divided by the energy input [-].
     lost: [f64; 2],
 }
 
@@ -72,8 +72,8 @@ fn energy_balance_of_a_shattering_block_closes_better_with_shorter_time_steps() 
             100.0 * long.lost[0],
             100.0 * long.lost[1]
         );
-        // Target: 1 %. A quarter of the time step lowers the residual to 1/16, but only to 1/4 with friction on
-        // rotating fragments.
+        // Target: residual 1 % of the energy input. A quarter of the time step lowers the residual to 1/16, but only to
+        // 1/4 with friction on rotating fragments.
         assert!(long.residual < 0.01 && short.residual < 0.5 * long.residual && short.residual < 1e-3);
         assert!(long.failed > 20 && long.lost[0] > 0.02);
     }
@@ -106,7 +106,7 @@ fn energy_balance_of_a_collapsed_prism_closes() {
             100.0 * run.lost[0],
             100.0 * run.lost[1]
         );
-        // Target: 1 %.
+        // Target: residual 1 % of the energy input.
         assert!(run.residual < 0.01 && run.failed > 100 && run.lost[1] > 0.05);
     }
 }

@@ -63,7 +63,7 @@ fn a_bar_breaks_at_its_strength_with_its_fracture_energy() {
         assert!((largest_stress / 3.3e6 - 1.0).abs() < 0.05);
         // Limit 3 %: the inclined faces dissipate less than 3 % of the energy.
         assert!((fracture_energy / 50.0 - 1.0).abs() < 0.03);
-        // Target: 1 %.
+        // Target: residual 1 % of the work.
         assert!(residual < 0.01 * last.work);
     }
 }

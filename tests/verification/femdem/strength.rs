@@ -9,9 +9,9 @@ struct Curve {
     /// Displacement [m], mean force since the previous row [N], and the value of `watch` in [`load`].
     rows: Vec<[f64; 3]>,
     world: World,
-    /// Largest residual of the energy balance until the largest force, over the work [-].
+    /// Largest residual of the energy balance until the largest force, divided by the work [-].
     residual: f64,
-    /// Kinetic over strain energy at the largest force [-].
+    /// Kinetic energy divided by strain energy, at the largest force [-].
     swing: f64,
 }
 
@@ -104,7 +104,8 @@ fn crush_prism(file: &Path, penalty: f64, tied: bool) -> f64 {
     curve.peak() / 25e-4
 }
 
-/// Returns the Mohr-Coulomb strength 2 c cos(phi) / (1 - sin(phi)) for the concrete of table 2, 57.16 MPa.
+/// Returns the Mohr-Coulomb strength 2 c cos(phi) / (1 - sin(phi)) for the concrete of Guo, Latham & Xiang (2015),
+/// table 2: 57.16 MPa.
 fn uniaxial_strength() -> f64 {
     let phi = STRENGTH.friction.atan();
     2.0 * STRENGTH.cohesion * phi.cos() / (1.0 - phi.sin())
@@ -114,19 +115,21 @@ fn coarse(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/fracture/meshes/{name}-coarse.msh"))
 }
 
-/// Reached with elements of 12.5 mm: 58.6 MPa with tied faces, 55.1 MPa with joints of p_0 = 50 E, 47.7 MPa with 20 E.
+/// Reached with elements of 12.5 mm: 58.6 MPa with tied faces, 55.1 MPa with joints of the penalty p_0 = 50 E, 47.7 MPa
+/// with joints of the penalty p_0 = 20 E.
 #[test]
 #[ignore = "minutes: \
     cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_prism"]
 fn a_prism_is_crushed_at_the_uniaxial_strength() {
     for (penalty, tied) in [(2.0, true), (50.0, false)] {
         let found = crush_prism(&coarse("compression"), penalty, tied);
-        // Target: 10 %.
+        // Target: within 10 % of the Mohr-Coulomb strength.
         assert!((found / uniaxial_strength() - 1.0).abs() < 0.1, "{:.2} MPa", found / 1e6);
     }
 }
 
-/// Reached: 58.0 MPa. Mesh: tools/mesh/make.py compression --size 0.0075 --out runs/meshes/compression-7.5mm.msh
+/// Reached: 58.0 MPa. Command that makes the mesh:
+/// tools/mesh/make.py compression --size 0.0075 --out runs/meshes/compression-7.5mm.msh
 #[test]
 #[ignore = "minutes, needs a mesh of 7.5 mm: \
     cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_finer_prism"]
@@ -216,12 +219,12 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
 /// (tools/fictitious-crack/beam). Guo's results are 298.8 N with elements of 2.5 mm and 279.3 N with 5 mm.
 const BY_FICTITIOUS_CRACK: f64 = 308.1;
 
-/// Reached with cells of 10 mm: 334.5 N, 9 % above theory. With joints of p_0 = 20 E: 331 and 328 N on cells of 10 and
-/// 5 mm.
+/// Reached with cells of 10 mm and joints of the penalty p_0 = 50 E: 334.5 N, 9 % above theory. With p_0 = 20 E, the
+/// loads are 331 and 328 N on cells of 10 and 5 mm respectively.
 #[test]
 fn a_beam_breaks_at_the_load_of_a_fictitious_crack() {
     let [peak, _] = bend_beam(4, 50.0, false, 0.025);
-    // Target: 15 %.
+    // Target: within 15 % of the load of the fictitious crack.
     assert!((peak / BY_FICTITIOUS_CRACK - 1.0).abs() < 0.15, "{peak:.1} N");
 }
 
@@ -283,13 +286,14 @@ fn split_disc(penalty: f64, tied: bool, opening_energy: f64) -> f64 {
     curve.peak()
 }
 
-/// This test fails: with E G_f / f_t^2 = 144 mm, the disc is too small to split at its tensile strength. With G_f = 5
-/// J/m2 and joints only in the middle plane, the load is 1.1 times the load that belongs to the tensile strength.
+/// This test fails: the disc is smaller than the characteristic length E G_f / f_t^2 = 144 mm, so it does not split at
+/// its tensile strength. With G_f = 5 J/m2 and joints only in the middle plane, the load is 1.1 times the expected
+/// load.
 #[test]
 #[ignore = "minutes, known to fail: \
     cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_disc"]
 fn a_disc_splits_at_its_tensile_strength() {
     let found = split_disc(2.0, true, 50.0);
-    // Target: 15 % of 2 P / (pi D L) = f_t.
+    // Target: 15 %. The expected load P = 2827 N follows from 2 P / (pi D L) = f_t.
     assert!((found / 2827.0 - 1.0).abs() < 0.15, "{found:.0} N");
 }

@@ -48,7 +48,8 @@ fn a_cube_slides_only_above_the_friction_angle() {
 
 #[test]
 fn a_rough_cube_tips_when_its_weight_passes_the_edge() {
-    // The cube tips about its rounded edge, which is R inside the sharp edge: tan = (a/2 - R) / (a/2).
+    // The cube with the edge a tips about its rounded edge. The centre of the rounding radius R lies R inside the sharp
+    // edge, so the tangent of the tipping angle is (a/2 - R) / (a/2).
     let tipping = ((0.5 - 0.05) / 0.5_f64).atan();
     for (share, tips) in [(0.98, false), (1.02, true)] {
         let mut rough = stack(1, 0.0);
@@ -97,7 +98,7 @@ fn a_heap_of_cubes_gains_no_energy() {
     println!(
         "heap of cubes: rise {highest:.1e} J, dissipated {dissipated:.3} J, residual {residual:+.3} J: {energy:?}"
     );
-    // The mechanical energy may not rise; 1e-3 J is 0.01 % of the energy of the fall.
+    // Limit 1e-3 J for a rise of the mechanical energy: 0.01 % of the potential energy lost in the fall.
     assert!(highest < 1e-3);
     // The energy balance itself has an error of 1.3 % of the dissipation, because contacts between boxes start and end
     // with some overlap. The cubes have stopped: the kinetic energy is below a thousandth of the dissipation.

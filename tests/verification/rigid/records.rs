@@ -43,7 +43,8 @@ fn the_impact_of_a_dropped_ball_records_its_fall_and_its_impulse() {
     // In body axes, the contact point is below the centre, half the overlap above the lowest point.
     let below = rotation * DVec3::from_array(event.point_in_body);
     assert!((below - DVec3::NEG_Z * radius).length() < 1e-4, "{below}");
-    // The impulse is m (v + v') plus the impulse of the weight during the history. Target: 1e-9.
+    // The impulse is m (v + v'), with the speeds v before and v' after the impact, plus the impulse of the weight
+    // during the history. Target: 1e-9.
     let samples = contact.history.samples();
     let [first, last] = [samples.first(), samples.last()].map(Option::unwrap);
     let (begin, ended) = (first.start, last.start + last.duration);

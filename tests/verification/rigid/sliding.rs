@@ -29,14 +29,14 @@ fn a_sliding_tetrapod_has_the_acceleration_of_kinetic_friction() {
         let resistance = Resistance { kinetic_friction: 0.32, ..0.65.into() };
         let angle = 0.72f64.atan();
         let mut world = tilted_world(azimuth, resistance, angle);
-        // The unit starts and reaches the speed of kinetic friction.
+        // Within 0.1 s, the unit starts to slide, and kinetic friction replaces static friction.
         run(&mut world, 0.1, 1e-4);
         let before = world.states()[0].velocity.x;
         run(&mut world, 0.3, 1e-4);
         let acceleration = (world.states()[0].velocity.x - before) / 0.3;
         let expected = G * (angle.sin() - 0.32 * angle.cos());
         println!("azimuth {azimuth:.2}: {acceleration:.4} m/s2, expected {expected:.4}");
-        // Target: 1 %.
+        // Target: acceleration within 1 % of theory.
         assert!((acceleration / expected - 1.0).abs() < 0.01);
     }
 }

@@ -32,11 +32,12 @@ fn principal(inertia: DMat3) -> (DVec3, DQuat) {
     (moments, DQuat::from_mat3(&DMat3::from_cols(columns[0], columns[1], columns[2])))
 }
 
-/// Returns the time between flips of a body with principal moments i and a spin w nearly about its middle axis: 2
-/// K(k)/p.
+/// Returns the time between flips of a body with principal moments i and a spin w nearly about its middle axis.
 ///
-/// For L^2 > 2 E I_2, p^2 = (I_3 - I_2)(L^2 - 2 E I_1)/(I_1 I_2 I_3) and k^2 = (I_2 - I_1)(2 E I_3 - L^2)/((I_3 -
-/// I_2)(L^2 - 2 E I_1)); otherwise the indices 1 and 3 are exchanged. K follows from the arithmetic-geometric mean.
+/// The time is 2 K(k)/p, with the complete elliptic integral K, the angular momentum L and the kinetic energy E.
+/// For L^2 > 2 E I_2, p^2 = (I_3 - I_2)(L^2 - 2 E I_1)/(I_1 I_2 I_3) and
+/// k^2 = (I_2 - I_1)(2 E I_3 - L^2)/((I_3 - I_2)(L^2 - 2 E I_1)). Otherwise the indices 1 and 3 are exchanged.
+/// K follows from the arithmetic-geometric mean.
 fn flip_time(i: DVec3, w: DVec3) -> f64 {
     let (two_e, l2) = ((i * w * w).element_sum(), (i * i * w * w).element_sum());
     let (low, high) = if l2 > two_e * i.y { (i.x, i.z) } else { (i.z, i.x) };
@@ -78,12 +79,13 @@ fn a_free_core_loc_keeps_its_angular_momentum_and_flips_with_the_period_of_theor
         "angular momentum error {error:.1e} in 30 s, {} flips every {period:.4} s, expected {expected:.4} s",
         flips.len()
     );
-    // Targets: 1e-9 and 1 %.
+    // Targets: 1e-9 for the angular momentum, 1 % for the time between flips.
     assert!(error < 1e-9 && flips.len() > 3 && (period / expected - 1.0).abs() < 0.01);
 }
 
 /// A symmetric top on a smooth plane; its centre of mass is `arm` above the centre of its ball tip and moves vertically
-/// only. Steady precession at the tilt t: A W^2 cos t - C w_3 W + m g l = 0.
+/// only. The rate W of steady precession at the tilt t follows from A W^2 cos t - C w W + m g l = 0, with the
+/// moments of inertia A across and C along the axis, the spin w and the arm l.
 #[test]
 fn a_top_precesses_at_the_rate_of_theory() {
     let (mass, arm, tip) = (0.3, 0.05, 0.005);

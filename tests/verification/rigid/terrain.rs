@@ -78,7 +78,8 @@ fn a_ball_oscillates_in_a_terrain_trough_without_loss() {
     })
     .unwrap();
     let before = total_energy(&world);
-    // Without friction the ball does not rotate, so it moves like a pendulum of length R - r. The finite angle
+    // Without friction the ball does not rotate, so it moves like a pendulum. Its length is the radius of the
+    // trough minus the radius of the ball. The finite angle
     // lengthens the period by the share angle^2 / 16.
     let period = std::f64::consts::TAU * (pendulum_length / 9.81).sqrt() * (1.0 + angle * angle / 16.0);
     let (mut crossings, mut last) = (Vec::new(), start.x);
@@ -141,7 +142,7 @@ fn ten_tetrapods_come_to_rest_on_rough_rock() {
         100.0 * world.deepest_overlap() / HEIGHT,
         world.contact_count()
     );
-    // Targets for piles: 1e-6 of the energy, and 1 % of the height.
+    // Targets, as for piles: kinetic energy and rise 1e-6 of the potential energy, overlap 1 % of the height.
     assert!(e.kinetic < 1e-6 * drop && rise < 1e-6 * start.potential.abs());
     assert!(world.deepest_overlap() < 0.01 * HEIGHT);
 }

@@ -13,10 +13,10 @@ pub const FRICTION: &str = "friction.mortar-pvc.coefficient";
 
 /// Keys that do not change how the units move.
 const WITHOUT_EFFECT: [&str; 8] =
-    ["$schema", "title", "assumptions", "reference", "output", "gauges", "fracture", "stop"];
+    ["$schema", "title", "assumptions", "reference", "output", "gauges", "breakage", "stop"];
 
-/// Keys that are not listed as changes. Tables have separate columns for particle spacing and wave height. Doubling the
-/// time step changes the forces by less than 2 %.
+/// Keys that are not listed as changes. Tables have separate columns for particle spacing and wave height. The Courant
+/// number is not listed, because doubling the time step changes the forces by less than 2 %.
 const SHOWN_ELSEWHERE: [&str; 3] = ["domain.dp_m", "numerics.cfl", "wave.height_m"];
 
 /// Keys that must change with the number of units. If `units.count` is a change, these keys are not listed.

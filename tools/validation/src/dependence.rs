@@ -8,8 +8,8 @@ use breakwater::{
 
 use crate::{
     change::{Change, FRICTION},
+    compared::{Compared, centimetres, millimetres},
     markdown::{Page, signed},
-    page::{Compared, centimetres, millimetres},
 };
 
 /// Runs of the different waves with the same changes and the same particle spacing.
@@ -53,10 +53,11 @@ pub fn add(page: &mut Page, waves: &[&ReferenceWave], results: &[Compared]) {
     if groups.is_empty() {
         return;
     }
-    let caption = "Change of the mean displacement when one input is changed, with the changed value at each bar.";
+    let caption = "Change of the mean displacement when one input is changed; the label of a bar gives the changed \
+                   value and the wave.";
     page.figure("fudo-dependence.svg", &chart(waves, &groups), caption);
     page.add("## What the result depends on");
-    let mut head = ["input", "base", "changed", "spacing [mm]"].map(str::to_owned).to_vec();
+    let mut head = ["input", "base value", "changed value", "particle spacing [mm]"].map(str::to_owned).to_vec();
     head.extend(waves.iter().map(|wave| format!("{} cm [%]", centimetres(wave))));
     let row = |group: &Group| {
         let joined = |words: &dyn Fn(&Change) -> String| group.changes.iter().map(words).collect::<Vec<_>>().join("; ");
@@ -70,7 +71,10 @@ pub fn add(page: &mut Page, waves: &[&ReferenceWave], results: &[Compared]) {
         row
     };
     page.table(&head, &groups.iter().map(row).collect::<Vec<_>>());
-    page.add("Change of the mean displacement from the base case at the same particle spacing.");
+    page.add(
+        "For each wave, the last columns give the change of the mean displacement from the base case at the same \
+         particle spacing. An empty cell means that there is no such run.",
+    );
 }
 
 fn chart(waves: &[&ReferenceWave], groups: &[Group]) -> String {

@@ -9,17 +9,21 @@ use breakwater::{
 };
 
 use crate::{
+    compared::{Compared, centimetres, millimetres},
     markdown::Page,
-    page::{Compared, centimetres, millimetres},
 };
 
 /// Adds the three figures to the page.
 pub fn add(page: &mut Page, waves: &[&ReferenceWave], base: &[&Compared]) {
     let means = bars(waves, base, "mean displacement [m]", |_, series| series.mean_m(), |run| run.mean_m);
-    page.figure("fudo-means.svg", &means, "Mean displacement for each wave; hollow bars are published values.");
+    let caption =
+        "Mean displacement for each wave; hollow bars are values from the paper (experiment and published runs).";
+    page.figure("fudo-means.svg", &means, caption);
     let damaged = |wave: &ReferenceWave, series: &Series| 100.0 * wave.damage_ratio(&series.displacement_m);
     let damage = bars(waves, base, "damaged units [%]", damaged, |run| 100.0 * run.damage_ratio);
-    page.figure("fudo-damage.svg", &damage, "Share of damaged units for each wave; hollow bars are published values.");
+    let caption =
+        "Share of damaged units for each wave; hollow bars are values from the paper (experiment and published runs).";
+    page.figure("fudo-damage.svg", &damage, caption);
     let caption = "Deviation of the mean displacement from the measured mean against the particle spacing.";
     page.figure("fudo-convergence.svg", &convergence(waves, base), caption);
 }

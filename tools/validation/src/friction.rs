@@ -10,8 +10,8 @@ use breakwater::{
 
 use crate::{
     change::{self, FRICTION},
+    compared::{Compared, centimetres, millimetres},
     markdown::Page,
-    page::{Compared, centimetres, millimetres},
 };
 
 /// The two points of a wave's friction sweep that section 4.7 of the paper states as numbers.
@@ -84,7 +84,8 @@ pub fn add(page: &mut Page, waves: &[&ReferenceWave], results: &[Compared], publ
         ..LineChart::default()
     };
     let caption = format!(
-        "Mean displacement against the friction coefficient of the mound ({} in the experiment), with the two published points.",
+        "Mean displacement against the friction coefficient between units and mound ({} in the experiment); dashed \
+         line: the two points that the paper gives as numbers.",
         change::base_friction()
     );
     page.figure("fudo-friction.svg", &chart.svg(), &caption);

@@ -16,6 +16,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod change;
+mod compared;
 mod dependence;
 mod figures;
 mod friction;
@@ -156,7 +157,8 @@ mod tests {
         for words in [
             "by \u{2212}53.5 % for the 2.6 cm wave and by +1.1 and +3.2 % for the 4.5 cm wave.",
             "For the 2.6 cm wave, breakwater is on the unsafe side:",
-            "At the finest spacing, 0 and 100 % of the units are damaged in breakwater, and 80 and 100 % in the experiment.",
+            "For these waves at the finest spacing, 0 and 100 % of the units are damaged in breakwater, and 80 and \
+             100 % in the experiment.",
             "| 4.5 | 9 | 0.242 | 0.245 | +1.1 | \u{2212}32.5 | 100 / 100 |",
             "| `mound.crest_width_m` | 0.32 | 0.28 | 9 |  | \u{2212}14.3 |",
             "(fudo-friction.svg)",

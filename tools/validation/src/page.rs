@@ -9,7 +9,8 @@ use breakwater::{
 };
 
 use crate::{
-    change::{Change, changes},
+    change::changes,
+    compared::{Compared, centimetres, millimetres},
     dependence, figures,
     friction::{self, Published},
     kept_run::KeptRun,
@@ -25,33 +26,6 @@ pub const END: &str = "<!-- Generated up to here; text below this line is kept. 
 /// Largest deviation of a mean displacement that counts as agreement [%]. Repeated measurements scatter by less than
 /// half as much.
 const MISSED_PERCENT: f64 = 10.0;
-
-/// A run with its changes from the base case.
-pub struct Compared<'a> {
-    /// The wave.
-    pub wave: &'a ReferenceWave,
-    /// The results.
-    pub run: &'a RunResult,
-    /// Changes from the base case.
-    pub changes: Vec<Change>,
-}
-
-impl Compared<'_> {
-    /// Particle spacing [m].
-    pub fn dp_m(&self) -> f64 {
-        self.run.summary.dp_m
-    }
-}
-
-/// Wave height in cm, as text.
-pub fn centimetres(wave: &ReferenceWave) -> String {
-    short(100.0 * wave.height_m, 1)
-}
-
-/// Particle spacing in mm, as text.
-pub fn millimetres(dp_m: f64) -> String {
-    short(1000.0 * dp_m, 2)
-}
 
 /// Builds the page from the compared runs.
 pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) -> Page {
@@ -80,7 +54,10 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
     friction::add(&mut page, &waves, &results, frictions);
     dependence::add(&mut page, &waves, &results);
     page.add("## Repeat a run");
-    page.add("The cases of all runs are in `tools/validation/runs`. The second command adds the new run to this page:");
+    page.add(
+        "The cases of all runs are in `tools/validation/runs`. The first command repeats a run; the second command adds its \
+         results to this page:",
+    );
     let name = base.last().map_or("RUN", |result| &result.run.name);
     page.add(&format!(
         "    cargo run --release -- run tools/validation/runs/{name}/case.json --out runs/{name}\n    \
@@ -131,7 +108,8 @@ fn verdict(waves: &[&ReferenceWave], base: &[&Compared]) -> String {
     };
     format!(
         "At particle spacings of {} mm the mean displacement deviates from the measured mean {}.\n{}{}.\n\
-         At the finest spacing, {} % of the units are damaged in breakwater, and {} % in the experiment.",
+         For these waves at the finest spacing, {} % of the units are damaged in breakwater, and {} % in the \
+         experiment.",
         joined(&spacings),
         joined(&deviations),
         missed[..1].to_uppercase(),
@@ -143,12 +121,12 @@ fn verdict(waves: &[&ReferenceWave], base: &[&Compared]) -> String {
 
 fn add_table(page: &mut Page, base: &[&Compared]) {
     let head = [
-        "wave [cm]",
-        "spacing [mm]",
+        "wave height [cm]",
+        "particle spacing [mm]",
         "measured [m]",
         "breakwater [m]",
-        "deviation [%]",
-        "published deviation [%]",
+        "deviation of breakwater [%]",
+        "deviation of the published run [%]",
         "damaged, measured / breakwater [%]",
     ];
     let row = |result: &&Compared| {
@@ -166,5 +144,8 @@ fn add_table(page: &mut Page, base: &[&Compared]) {
         ]
     };
     page.table(&head.map(str::to_owned), &base.iter().map(row).collect::<Vec<_>>());
-    page.add("Means of the displacement of all units; deviations are relative to the measured mean.");
+    page.add(
+        "Columns in m give the mean displacement of all units; deviations are relative to the measured mean. An empty \
+         cell means that there is no published run.",
+    );
 }

@@ -165,7 +165,7 @@ fn elements<const N: usize>(block: &ElementBlock, nodes: &mut NodeTable) -> Resu
     Ok(result)
 }
 
-/// Nodes of a file, found by their tags. The table marks the nodes that elements use.
+/// Nodes of a file. The table finds a node by its tag and marks the nodes that elements use.
 struct NodeTable {
     positions: Vec<(u64, DVec3)>,
     index: HashMap<u64, u32>,

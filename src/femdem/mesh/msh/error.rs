@@ -78,8 +78,8 @@ pub enum MshError {
     NoVolume,
     /// A volume belongs to no body.
     #[error(
-        "volume {entity} has {count} tetrahedra but is in no physical volume; add it to one, or set Mesh.SaveAll = 0 to \
-         leave it out of the file"
+        "volume {entity} has {count} tetrahedra but is in no physical volume; add it to one, or set Mesh.SaveAll = 0 \
+         to leave it out of the file"
     )]
     UngroupedVolume { entity: i32, count: usize },
     /// A volume belongs to more than one body.

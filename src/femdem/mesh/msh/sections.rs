@@ -1,7 +1,7 @@
 //! Raw content of an MSH 4.1 file, section by section.
 //!
-//! Format: Gmsh reference manual, section "MSH file format". The crate `mshio` 0.4.2 is not used, because it drops the
-//! tags of nodes that are numbered without gaps. It therefore mixes up the nodes of every renumbered mesh.
+//! Format: Gmsh reference manual, section "MSH file format". The crate `mshio` 0.4.2 is not used, because it ignores
+//! node tags that have no gaps. It therefore mixes up the nodes of a mesh in which Gmsh has renumbered the nodes.
 
 use std::collections::BTreeMap;
 
@@ -47,7 +47,7 @@ pub(super) struct ElementBlock {
 }
 
 impl Sections {
-    /// Reads a whole file. Memory and time depend only on the size of the file, even if counts in the file are wrong.
+    /// Reads a whole file. Memory and time depend only on the size of the file, also if the file states wrong counts.
     pub(super) fn read(bytes: &[u8]) -> Result<Self, MshError> {
         let mut source = Source::new(bytes)?;
         let mut content = Self::default();
@@ -104,7 +104,7 @@ impl Sections {
                 }
                 let mut groups = Vec::new();
                 for _ in 0..source.size()? {
-                    // The sign is the orientation of the entity in the group, which is not needed.
+                    // The sign of the number gives the orientation of the entity, which is not needed.
                     groups.push(source.int()?.saturating_abs());
                 }
                 groups.sort_unstable();

@@ -2,7 +2,7 @@
 
 use super::error::{FilePosition, MshError};
 
-/// Longest quote from a file in a message [characters].
+/// Largest number of characters of the file that a message quotes.
 const LONGEST_QUOTE: usize = 40;
 
 /// The content of a file and the current reading position.
@@ -31,7 +31,7 @@ impl<'a> Source<'a> {
             "1 8" => true,
             other => return Err(MshError::Header(other.to_owned())),
         };
-        // A binary file contains the integer 1 here, which shows the byte order.
+        // A binary file contains the integer 1 here. Its bytes show the byte order of the file.
         if source.binary && source.take_bytes()? != 1i32.to_le_bytes() {
             return Err(MshError::Header(format!("{layout} (binary, big-endian)")));
         }
@@ -118,7 +118,7 @@ impl<'a> Source<'a> {
         } else {
             let read = &self.bytes[..position];
             let line = 1 + read.iter().filter(|byte| **byte == b'\n').count();
-            // If the position is in white space, the line is that of the next number.
+            // If the position is in white space, the line of the next number is returned.
             let space = self.bytes[position..].iter().take_while(|byte| byte.is_ascii_whitespace());
             FilePosition::Line(line + space.filter(|byte| **byte == b'\n').count())
         }

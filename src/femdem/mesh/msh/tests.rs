@@ -23,7 +23,7 @@ fn error_of(text: &str) -> String {
     parse(text.as_bytes(), 1.0).unwrap_err().to_string()
 }
 
-/// Error message of the reader for the valid text after replacement of `from`, which must occur, by `to`.
+/// Error message of the reader for the text of [`text`] in which `to` replaces `from`. `from` must occur in the text.
 fn error_with(from: &str, to: &str) -> String {
     let text = text();
     assert!(text.contains(from), "{from:?} not in {text}");
@@ -43,7 +43,7 @@ fn text_and_binary_read_back_as_written() {
         for binary in [false, true] {
             assert_eq!(parse(&write(&mesh, binary), 1.0).unwrap(), mesh);
         }
-        // Tags with gaps, out of order and too long for 32 bits.
+        // The same test with tags that have gaps, are not in order and are too large for 32 bits.
         mesh.node_tags.iter_mut().for_each(|tag| *tag = 5_000_000_000 - 7 * *tag);
         mesh.tet_tags.reverse();
         for binary in [false, true] {
@@ -116,7 +116,8 @@ fn meshes_written_by_gmsh_are_read() {
         assert!((prepared.quality[0].volume - 1.0).abs() < 1e-14);
         assert_eq!((prepared.faces.cracks[0].faces.len(), prepared.faces.boundaries.len()), (4, 2));
     }
-    // In the second file Gmsh renumbered the nodes, without gaps and out of order. The shapes must not change.
+    // In the second file, Gmsh has renumbered the nodes: the tags have no gaps but are not in order. The reader must
+    // find the same shapes.
     let corners = |mesh: &Mesh| (0..mesh.tets.len()).map(|tet| mesh.corners(tet)).collect::<Vec<_>>();
     assert_eq!(corners(&binary), corners(&renumbered));
     assert_ne!(binary.node_tags, renumbered.node_tags);
@@ -159,10 +160,10 @@ fn unexpected_words_are_reported_with_line_and_section() {
     let line = 1 + text()[..text().find("0.0 1.0 0.0 \n").unwrap()].matches('\n').count();
     let message = error_with("0.0 1.0 0.0 \n", "0.0 half 0.0 \n");
     assert_eq!(message, format!("line {line}, section $Nodes: found \"half\", expected a number"));
-    // The stated number of nodes is one too high: a coordinate is read as a tag.
+    // The stated number of nodes is one too high, so the reader takes a coordinate for a tag.
     let message = error_with("3 1 0 12 \n", "3 1 0 13 \n");
     assert!(message.contains("section $Nodes: found \"0.0\", expected a count or a tag"), "{message}");
-    // The stated number of nodes is one too low: the last tag is read as a coordinate, and the last coordinate is left.
+    // The stated number of nodes is one too low, so the reader takes the last tag for a coordinate, and numbers remain.
     let message = error_with("3 1 0 12 \n", "3 1 0 11 \n");
     assert!(message.contains("section $Nodes: ") && message.contains("expected the end of the section"), "{message}");
     let message = error_with("3 1 4 12 \n", "3 1 4 99999999999999999 \n");
@@ -236,7 +237,7 @@ enum Damage {
     Cut(usize),
 }
 
-/// Range of eight bytes around a position in a binary file, or of a word in a text.
+/// Returns the range of eight bytes at a position in a binary file, or of the word at a position in a text file.
 fn word_range(bytes: &[u8], position: usize, binary: bool) -> std::ops::Range<usize> {
     if binary {
         let start = position.min(bytes.len() - 8);

@@ -1,4 +1,5 @@
-//! Writes meshes in compact MSH 4.1: one entity per body and per set. Node sets are written as points.
+//! Writes meshes as MSH 4.1 files, with one entity per body and per set. All nodes of a node set are written as
+//! elements of one point entity.
 
 use super::super::Mesh;
 

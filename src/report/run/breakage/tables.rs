@@ -46,8 +46,8 @@ pub fn units(breakage: &Breakage) -> String {
          <tr class=\"sum\"><td>All</td><td></td><td>{} of {units}</td><td colspan=\"5\"></td><td>{} of {units}</td></tr>\n\
          </tbody></table></div>\n\
          <figcaption>Peak impact force: the largest force of all recorded impacts, from Hertz's law. Nominal stress: \
-         the largest stress of all recorded impacts, from beam theory. \u{3c3}\u{2081} (first principal stress), crack area \
-         and number of pieces are the largest values in the fracture runs of the unit.</figcaption>\n",
+         the largest stress of all recorded impacts, from beam theory. \u{3c3}\u{2081} (first principal stress), crack \
+         area and number of pieces are the largest values in the fracture runs of the unit.</figcaption>\n",
         force.name,
         area.name,
         count(|unit| unit.damaged),
@@ -59,7 +59,8 @@ pub fn units(breakage: &Breakage) -> String {
 /// Table of the impacts that were re-run at prototype scale.
 pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
     if breakage.impacts.is_empty() {
-        return "<p>No impact was re-run, because no impact meets the criteria in <code>breakage.select</code>.</p>\n".to_owned();
+        let words = "no impact meets the criteria in <code>breakage.select</code>";
+        return format!("<p>No impact was re-run, because {words}.</p>\n");
     }
     let found = || breakage.impacts.iter().flat_map(|impact| &impact.found);
     let area = Measure::of_areas(found().map(|found| found.crack_area_m2));
@@ -100,8 +101,8 @@ pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
          <figcaption>Approach velocities scale with the square root of length (Froude). Method \"collision\": both \
          bodies start at their positions and velocities just before the impact and collide again. Method \"recorded \
          forces\": the recorded forces of contacts and water act on the unit, without other bodies. Two values in a \
-         cell: the first is for the unit, the second for the unit that it hit. Energy residual: error of the energy balance, relative to \
-         the largest kinetic energy.</figcaption>\n",
+         cell: the first is for the unit, the second for the unit that it hit. Energy residual: error of the energy \
+         balance, relative to the largest kinetic energy.</figcaption>\n",
         area.name
     )
 }
