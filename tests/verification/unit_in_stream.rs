@@ -198,7 +198,7 @@ fn on_the_bed_drag_falls_and_lift_grows_with_resolution() {
     }
 }
 
-/// Compares units with and without free slip on their surface at a quarter of the viscosity of the Fudo runs.
+/// Compares the drag of units with and without free slip on their surface at a quarter of the viscosity of the Fudo runs.
 #[test]
 #[ignore = "7 minutes on one core: \
     cargo test --release --test verification -- --ignored --nocapture free_slip_on_the_unit_lowers_the_drag"]

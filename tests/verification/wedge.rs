@@ -39,7 +39,7 @@ fn points(width: f64) -> Vec<(&'static str, DVec3)> {
 /// Errors over the last half of a run.
 #[derive(Debug)]
 struct Errors {
-    /// Largest error of the mean pressure at a point, as a share of rho g d [-].
+    /// Largest error of the time-averaged pressure at a point, as a share of rho g d [-].
     pressure: f64,
     /// rms of the velocity as a share of sqrt(g d) [-].
     velocity: f64,

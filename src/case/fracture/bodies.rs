@@ -192,7 +192,7 @@ fn cohesion(file: &FractureFile, elastic: &Elastic, strength: &StrengthFile) -> 
 
 impl StrengthFile {
     /// Returns the strength in the form that the solver uses, with the tangent of the friction angle.
-    pub(in super::super) fn to_strength(&self) -> Strength {
+    pub(in super::super) fn to_strength(self) -> Strength {
         Strength {
             tensile: self.tensile_pa,
             cohesion: self.cohesion_pa,

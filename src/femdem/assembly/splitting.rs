@@ -60,7 +60,7 @@ impl Nodes {
     }
 }
 
-/// Builds nodes and tetrahedra. Copies of a mesh node that tied faces connect become one node. `tied` returns true for
+/// Builds nodes and tetrahedra. Copies of a mesh node become one node if tied faces connect them. `tied` returns true for
 /// the number of a tied interface. Nodes are numbered in the order of the tetrahedra.
 pub fn assemble(setup: &Setup, tied: impl Fn(u32) -> bool) -> (Nodes, Tets) {
     let mut tets = Tets::new(setup);
@@ -114,7 +114,7 @@ fn lumped_mass(copies: &[NodeCopy], tets: &Tets, setup: &Setup) -> f64 {
     copies.iter().map(quarter).sum()
 }
 
-/// Splits the copies of a node into groups that tied faces connect. `tied` returns true for the number of a face that
+/// Splits the copies of a node into groups. Tied faces connect the copies of a group. `tied` returns true for the number of a face that
 /// connects its two tetrahedra. Copies and groups are in ascending order. In a body that cannot crack, all copies form
 /// one group.
 pub fn connected_groups(

@@ -84,7 +84,8 @@ impl BlockPosition {
         let over = nodes.iter().filter(|node| flat(**node - middle).length() <= half_diagonal);
         let lowest = over.map(level).fold(f64::INFINITY, f64::min);
         let top = if lowest.is_finite() { lowest } else { 0.0 } - GAP * height;
-        // On a plane bed, another foot can be lower because its edges are sharp. The lowest foot touches first.
+        // The contact point was computed for rounded edges, but the edges of the mesh are sharp. On a plane bed, the foot
+        // at the contact point is therefore not always the lowest foot. The lowest foot touches the block first.
         let gap = if is_plane { GAP * height } else { (foot - top).max(GAP * height) };
         Self { middle, width, top, gap }
     }

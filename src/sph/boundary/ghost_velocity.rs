@@ -3,8 +3,10 @@
 //!
 //! The interpolated value is a linear function of the values at the water particles. Therefore the four equations of
 //! [`mdbc`](super::mdbc) are solved once per node for the weights of their left-hand sides: the number a and the vector
-//! b. The velocity at the node is then one weighted sum over the water particles, v = sum_b (a W + b . r_b g) V_b v_b.
-//! Here W is the kernel, grad W = G r, g = -h^2 G, and r_b is the vector from the node to the particle in units of h.
+//! b. The velocity at the node is then one weighted sum over the water particles j:
+//! v = sum_j (a W + g b . r_j) V_j v_j. Here r_j is the vector from the node to particle j in units of h. V_j and v_j are
+//! the volume and the velocity of this particle. W is the kernel. g is not gravity but -h^2 G, with the factor G of the
+//! kernel gradient grad_a W_ab = G r_ab.
 
 use glam::DVec3;
 use rayon::prelude::*;

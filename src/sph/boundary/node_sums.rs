@@ -13,7 +13,7 @@ pub struct Pair<L> {
     pub r: [L; 3],
     /// W V: kernel times volume of the particle, without the constant factor of W.
     pub wv: L,
-    /// G V, where grad W = G r, without the constant factor of G.
+    /// G V, with the factor G of the kernel gradient grad_a W_ab = G r_ab, without the constant factor of G.
     pub gv: L,
 }
 

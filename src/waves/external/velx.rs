@@ -81,6 +81,7 @@ mod tests {
         let message = |path: &Path| read(path, &PLACE).unwrap_err().to_string();
         assert!(message(&path).ends_with("; give the path of a `_velx` file"));
         std::fs::write(&path, "px:;3;py:;0\ntime;pz_0;vel_0\n0;0.2\n").unwrap();
-        assert!(message(&path).ends_with("line 3: 2 fields, expected 3 for 1 row(s); correct or delete the line"));
+        assert!(message(&path).contains("line 3: 2 fields, expected 3: time, 1 height(s) `pz`"));
+        assert!(message(&path).ends_with("; correct or delete the line"));
     }
 }

@@ -65,7 +65,11 @@ impl Velx {
                 1 => rows = fields.iter().filter(|name| name.starts_with("pz")).count(),
                 _ if text.trim().is_empty() => {}
                 _ if fields.len() != 1 + 2 * rows => {
-                    return Err(error(format!("{} fields, expected {} for {rows} row(s)", fields.len(), 1 + 2 * rows)));
+                    let (found, expected) = (fields.len(), 1 + 2 * rows);
+                    return Err(error(format!(
+                        "{found} fields, expected {expected}: \
+                         time, {rows} height(s) `pz`, {rows} velocity value(s) `vel`"
+                    )));
                 }
                 _ => {
                     let values = fields.iter().map(|field| number(field)).collect::<Result<Vec<f64>, _>>()?;
@@ -106,7 +110,10 @@ mod tests {
         let message = |text: &str| Velx::read(text.as_bytes()).unwrap_err().to_string();
         assert_eq!(message("x;1"), "velx: line 1: expected `px:;<x>;py:;<y>`");
         let head = "px:;1;py:;0\ntime;pz_0;vel_0\n";
-        assert_eq!(message(&format!("{head}0;0.1")), "velx: line 3: 2 fields, expected 3 for 1 row(s)");
+        assert_eq!(
+            message(&format!("{head}0;0.1")),
+            "velx: line 3: 2 fields, expected 3: time, 1 height(s) `pz`, 1 velocity value(s) `vel`"
+        );
         assert_eq!(message(&format!("{head}0;0.1;fast")), "velx: line 3: `fast` is not a number");
     }
 }

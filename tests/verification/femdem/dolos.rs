@@ -30,7 +30,7 @@ fn a_dropped_dolos_cracks_first_at_the_upper_corner_of_stem_and_fluke() {
     assert!((4e-4..6.5e-4).contains(&crack.time));
     // The stem is along x around z = 0. The vertical fluke begins at x = 0.2 m.
     assert!((0.1..0.3).contains(&crack.centroid.x) && crack.centroid.z > 0.1, "{}", crack.centroid);
-    // Target: residual 1 % of the initial kinetic energy.
+    // Target: the energy balance closes within 1 % of the initial kinetic energy.
     assert!(residual < 0.01);
 }
 
