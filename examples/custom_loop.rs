@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let pressure = now.sampler()?.sample(foot).map_or(0.0, |sample| sample.pressure);
             println!("{:.3} s: front at {front:.3} m, {pressure:.0} Pa at the foot of the column", now.time);
         }
-        // The centre of a particle that touches the wall is half a particle spacing away; 0.75 includes a tolerance.
+        // If a particle touches the wall, its centre is 0.5 dp away from the wall; 0.75 includes a tolerance.
         if front > wall - 0.75 * case.domain.dp {
             println!("The water reaches the wall after {:.3} s and {} steps.", now.time, now.steps);
             return Ok(());

@@ -69,7 +69,7 @@ pub struct Load {
 }
 
 impl Load {
-    /// Returns the force and the torque of a force [N] that acts at `arm` [m] from the centre of mass.
+    /// Returns the load of a force [N] that acts at the point `arm` [m], a vector from the centre of mass.
     pub fn of_force(force: DVec3, arm: DVec3) -> Self {
         Self { force, torque: arm.cross(force) }
     }

@@ -54,7 +54,7 @@ mod tests {
         let mut random = SplitMix64::new(1);
         let count = 20_000;
         let mean = (0..count).map(|_| random.next_rotation() * DVec3::Z).sum::<DVec3>() / f64::from(count);
-        // The mean of n unit vectors has a length of about 1/sqrt(n) = 0.007; the limit is three times this length.
+        // The mean of n = 20000 random unit vectors has a length of about 1/sqrt(n) = 0.007; the limit is 3 times it.
         assert!(mean.length() < 0.021, "{mean}");
     }
 }

@@ -257,7 +257,7 @@ fn a_run_writes_all_output_files_and_summary_keys() {
     // The surge has reached the unit and moved it.
     assert!(summary["mean_displacement_m"].as_f64().unwrap() > 1e-3, "{}", summary["mean_displacement_m"]);
     let rows = std::fs::read_to_string(out.join("gauges.csv")).unwrap().lines().count();
-    // A heading, a row every 0.005 s from 0 to 0.3 s, and a row at the end.
+    // The file has a heading, a row every 0.005 s from 0 to 0.3 s, and a row at the end.
     assert!((61..=63).contains(&rows), "{rows} rows of gauges");
 
     // The surge moves at about 2 m/s, and the speed of sound is 15 sqrt(9.81 x 0.3) = 25.7 m/s.
@@ -444,8 +444,8 @@ fn a_full_disk_ends_the_run_with_an_error() {
     assert!(!message.contains("panicked") && !out.join("summary.json").exists(), "{message}");
 }
 
-/// The record of the other program is the wave of breakwater, 10 % higher, in the format of OpenFOAM's function object
-/// interfaceHeight.
+/// The invented record of another program is the wave of breakwater, 10 % higher, in the format of OpenFOAM's function
+/// object interfaceHeight.
 #[test]
 fn wave_compares_its_gauges_with_those_of_another_program() {
     let folder = tempfile::tempdir().unwrap();

@@ -170,7 +170,7 @@ fn a_run_writes_all_output_files_and_summary_keys() {
     let first = &summary["initiation"][0];
     assert!(first["t_s"].as_f64().unwrap() > 0.0 && ["opening", "sliding"].contains(&first["mode"].as_str().unwrap()));
     assert_eq!(first["place"].as_array().unwrap().len(), 3);
-    // A heading, and a row every 2e-5 s from 0 to 1e-3 s.
+    // The file has a heading, and a row every 2e-5 s from 0 to 1e-3 s.
     let rows = std::fs::read_to_string(out.join("energy.csv")).unwrap().lines().count();
     assert!((51..=53).contains(&rows), "{rows} rows");
     let message = end_with(2, &["fracture", path(&case), "--out", path(&out)]);

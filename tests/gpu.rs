@@ -106,12 +106,13 @@ fn rates_on_card_and_processor_agree() {
         let (cpu, cpu_loads) = first_half(&Device::Cpu, &case, before);
         let [acceleration, density] = relative(&gpu, &cpu);
         println!("{name}, {} particles: acceleration {acceleration:.1e}, density {density:.1e}", cpu.len());
-        // Target: relative difference of 1e-5 between card and processor.
+        // Target: relative differences of the rates below 1e-5 between card and processor.
         assert!(acceleration < 1e-5 && density < 1e-5);
         for (gpu, cpu) in gpu_loads.iter().zip(&cpu_loads) {
             let [force, torque] = [0, 1].map(|k| (gpu[k] - cpu[k]).length() / cpu[k].length());
             println!("  loads of a unit: force {force:.1e}, torque {torque:.1e}");
-            // Force: 1e-5 as for the rates of the water. Torque: 1e-4, because it is a difference of opposing forces.
+            // Limits: 1e-5 for the force, as for the rates of the water; 1e-4 for the torque, a difference of opposing
+            // forces.
             assert!(force < 1e-5 && torque < 1e-4);
         }
     }
@@ -133,7 +134,7 @@ fn dam_breaks_on_card_and_processor_agree() {
     println!(
         "after {time:.4} s: tip {gpu_tip:.5} and {tip:.5} m, energy {gpu_energy:.5} and {energy:.5} J, kinetic {gpu_kinetic:.5} and {kinetic:.5} J"
     );
-    // Target: relative difference of 1e-3 between card and processor for tip and energy. The time has the same limit.
+    // Target: tip and energy on card and processor differ by less than 1e-3. The time has the same limit.
     assert!((gpu_time / time - 1.0).abs() < 1e-3);
     assert!((gpu_tip / tip - 1.0).abs() < 1e-3);
     assert!((gpu_energy / energy - 1.0).abs() < 1e-3);
@@ -192,7 +193,7 @@ fn a_checkpoint_resumes_with_the_same_bits_and_on_the_other_device() {
     assert_eq!(on_card.water, uninterrupted.water);
     assert_eq!((on_card.time, on_card.steps), (uninterrupted.time, uninterrupted.steps));
     let energies = [&on_card, &on_cpu].map(|simulation| simulation.energy().total());
-    // Limit 1e-5: the rates on card and processor agree to 1e-5.
+    // Limit 1e-5 for the energy: the rates on card and processor agree to 1e-5.
     assert!((energies[0] / energies[1] - 1.0).abs() < 1e-5, "{energies:?}");
 }
 
@@ -241,8 +242,8 @@ fn walls_obstacles_and_two_dimensions_agree_on_card_and_processor() {
             [&mut gpu, &mut cpu].map(|simulation| simulation.begin_step().unwrap().powers().unwrap());
         let apart = furthest_apart(&gpu, &cpu);
         println!("{name}: positions {apart:.1e} m apart, powers {gpu_result:?}, {cpu_result:?}");
-        // A relative error of 1e-5 of some 100 m/s2 changes positions by 1e-7 m in 13 ms. At walls, the limit is a
-        // hundred times larger.
+        // A relative error of 1e-5 of accelerations of some 100 m/s2 changes positions by 1e-7 m in 13 ms. Because of
+        // the walls, the limit is a hundred times larger.
         assert!(apart < 1e-5);
         let all = cpu_result.boundary.abs() + cpu_result.viscosity.abs() + cpu_result.diffusion.abs();
         for (gpu, cpu) in [
@@ -250,7 +251,7 @@ fn walls_obstacles_and_two_dimensions_agree_on_card_and_processor() {
             (gpu_result.viscosity, cpu_result.viscosity),
             (gpu_result.diffusion, cpu_result.diffusion),
         ] {
-            // Limit 1e-3: the power is a small difference of large sums.
+            // Limit 1e-3 for each power: the power is a small difference of large sums.
             assert!((gpu - cpu).abs() < 1e-3 * all, "{gpu} {cpu}");
         }
     }
@@ -274,7 +275,8 @@ fn units_and_wavemaker_move_alike_on_card_and_processor() {
         gpu_result.iter().zip(&cpu_result).map(|(a, b)| (a.velocity - b.velocity).length() / b.velocity.length());
     let units = units.fold(0.0, f64::max);
     println!("water positions {apart:.1e} m apart, relative difference of unit velocities {units:.1e}");
-    // Positions change by 1e-7 m, see above; the loads on the units agree to 1e-5. The limits are ten times larger.
+    // Errors of the accelerations change positions by 1e-7 m; loads on the units agree to 1e-5. The limits are ten
+    // times these values.
     assert!(apart < 1e-6 && units < 1e-4);
 }
 

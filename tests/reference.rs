@@ -72,8 +72,9 @@ fn runs_are_compared_with_the_wave_of_their_period() {
     assert_eq!((of_short.reference.period_s, of_long.reference.period_s), (Some(1.0), Some(2.0)));
     let run = &of_short.runs[0];
     assert!(run.deviation_percent.abs() < 1e-9 && (run.damage_ratio - 1.0 / 3.0).abs() < 1e-12);
-    // Limits: rounding. The two repetitions have mean displacements of 0.2 and 0.0667 m; their inner unit alone moves
-    // 0.1 m on average. The run moves 0.2 m, 50 % more than the mean and 100 % more than the inner unit.
+    // Limits: rounding. The two repetitions have mean displacements of 0.2 and 0.0667 m. In both repetitions together,
+    // the inner unit moves 0.1 m on average. The run moves 0.2 m, 50 % more than the mean of all units and 100 % more
+    // than the inner unit.
     let run = &of_long.runs[0];
     assert!((run.deviation_percent - 50.0).abs() < 1e-9 && (run.inner_deviation_percent - 100.0).abs() < 1e-9);
     let text = comparison.to_string();

@@ -1,4 +1,4 @@
-//! Units from STL files and at given poses: valid ones run, invalid ones are refused, and nothing panics or hangs.
+//! Units from STL files and at given poses: valid cases run, invalid cases are refused, and nothing panics or hangs.
 
 use std::{path::Path, sync::Arc};
 

@@ -22,15 +22,15 @@ pub struct Block {
 }
 
 impl Block {
-    /// Creates a block with about `particles` water particles. If `moving` is true, the water sloshes. `support_per_dp`
-    /// is the radius 2h of the kernel support, divided by the particle spacing [-].
+    /// Creates a block with about `particles` water particles. If `moving` is true, the water circulates.
+    /// `support_per_dp` is the radius 2h of the kernel support, divided by the particle spacing [-].
     pub fn new(instructions: InstructionSet, particles: usize, support_per_dp: f64, moving: bool) -> Self {
         let side = (particles as f64).cbrt().round().max(8.0) * DP;
         let h = 0.5 * support_per_dp * DP;
         let mut parameters = Parameters::published(DP, h, 15.0 * (GRAVITY * side).sqrt(), GRAVITY, Some(side));
         // Use free slip, the default of case files.
         parameters.slip = WallSlip::FreeSlip;
-        // Velocity of the lowest sloshing mode: water falls along one wall and rises along the other.
+        // Velocity of one eddy that fills the block: the water falls along one wall and rises along the other.
         let speed = if moving { 0.3 * (GRAVITY * side).sqrt() } else { 0.0 };
         let wave = std::f64::consts::PI / side;
         let slosh = |x: f64, z: f64| {

@@ -22,7 +22,8 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Measures with 1, 2, ... `threads` threads. The measurement takes about a second for each number of threads.
+    /// Measures speed and bandwidth with 1, 2, ... `threads` threads. The measurement takes about a second for each
+    /// number of threads.
     ///
     /// # Errors
     /// If the threads cannot be started.

@@ -43,7 +43,7 @@ pub struct Measurement {
     pub full_evaluations_per_s: f64,
     /// Number of evaluations of water particles alone per second, over whole time steps.
     pub water_evaluations_per_s: f64,
-    /// Number of evaluated particle pairs within the kernel support per second, over whole time steps.
+    /// Number of particle pairs within the kernel support that the solver evaluates per second, over whole time steps.
     pub pairs_per_s: f64,
     /// Arithmetic operations per second for the pairs within the kernel support over whole time steps, divided by the
     /// measured peak speed with the same number of threads [-].
@@ -120,7 +120,8 @@ fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machi
     }
 }
 
-/// Converts the total duration of each phase in `steps` time steps to its share and its duration per particle.
+/// Converts the total duration of each phase in `steps` time steps to its share of these time steps, and to its
+/// duration per particle and time step.
 fn phases_of(times: &[Duration; PHASES.len()], steps: u32, particles: usize) -> Vec<Phase> {
     let total: f64 = times.iter().map(Duration::as_secs_f64).sum();
     let phase = |(name, time): (&&'static str, &Duration)| Phase {

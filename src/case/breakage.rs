@@ -15,7 +15,7 @@ const MOST_CORES: usize = 1024;
 /// Settings of the breakage analysis; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BreakageSettings {
-    /// Length scale: prototype length over length in the case [-].
+    /// Length scale: prototype length / length in the case [-].
     pub scale: f64,
     /// Mesh of one unit, scaled to the size of the units in the case.
     pub mesh: UnitMesh,
@@ -44,9 +44,9 @@ pub struct BreakageSettings {
 pub struct Selection {
     /// Quantity by which the impacts are ranked, the hardest first.
     pub by: ImpactMeasure,
-    /// Largest number of impacts; `None` for all.
+    /// Largest number of impacts that are re-run; `None` for all.
     pub worst: Option<usize>,
-    /// Smallest value of the quantity `by` at the scale of the case [N, m/s or J].
+    /// Smallest value of the quantity `by` for a re-run, at the scale of the case [N, m/s or J].
     pub at_least: f64,
 }
 
@@ -59,7 +59,8 @@ impl BreakageSettings {
         BreakageFile { mesh: Self::MESH.to_owned(), ..file.clone() }
     }
 
-    /// Returns the characteristic lengths of the concrete: E G_f / f_t^2 (opening) and E G_fII / c^2 (shear) [m].
+    /// Returns the characteristic lengths of the concrete [m]: E G_f / f_t^2 (opening) and E G_fII / c^2 (shear), with
+    /// Young's modulus E, fracture energies G_f and G_fII, tensile strength f_t and cohesion c.
     pub fn characteristic_lengths(&self) -> [f64; 2] {
         self.material.strength.to_strength().characteristic_lengths(self.material.young_modulus_pa)
     }
@@ -156,8 +157,8 @@ fn read_mesh(file: &BreakageFile, shape: &UnitShape, name: &str, check: &mut Che
     }
 }
 
-/// Warns if the mean edge of the elements, at prototype scale, is longer than a quarter of the characteristic length
-/// E G_f / f_t^2. Such elements do not resolve cracks.
+/// Warns if the mean edge of the elements at prototype scale is longer than a quarter of the characteristic length for
+/// opening cracks. Such elements do not resolve cracks.
 fn warn_of_coarse_mesh(settings: &BreakageSettings, check: &mut Checker) {
     let [opening, _] = settings.characteristic_lengths();
     let edge = settings.mesh.edge() * settings.scale;

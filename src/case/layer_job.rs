@@ -74,7 +74,7 @@ impl LayerJob {
         [end(x0)].into_iter().chain(inner).chain([end(x1)]).collect()
     }
 
-    /// Returns the slope area under the layers over D_n^2 [-], with the nominal diameter D_n of a unit.
+    /// Returns the slope area under the layers, divided by D_n^2 [-], with the nominal diameter D_n of a unit.
     pub fn area(&self) -> f64 {
         let length: f64 = self.slope().windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum();
         length * self.site.width / self.units.shape.nominal_diameter().powi(2)

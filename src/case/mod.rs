@@ -13,7 +13,7 @@
 //! | `breakage` | settings of the breakage analysis |
 //! | `reference` | measured displacements that runs are compared with |
 //! | `layer_job` | the parts of a case that `breakwater place` needs |
-//! | `output`, `units`, `wave`, `flume` | sections of a case; each imports only from sections to its right here |
+//! | `output`, `units`, `wave`, `flume` | sections of a case; each imports only from those to its right in this row |
 //! | `reading` | JSON, keys, types, errors |
 //! | [`file`] | all input files as the user writes them |
 

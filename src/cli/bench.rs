@@ -27,7 +27,7 @@ pub struct BenchArguments {
     /// Number of water particles.
     #[arg(long, default_value_t = 170_000, value_parser = clap::value_parser!(u32).range(512..=50_000_000))]
     particles: u32,
-    /// Support radius of the kernel divided by the particle spacing, 2h/dp [-]; h = 1.2 sqrt(3) dp gives 4.16.
+    /// Support radius 2h of the SPH kernel divided by the particle spacing dp [-]; h = 1.2 sqrt(3) dp gives 4.16.
     #[arg(long, default_value_t = 4.157)]
     support: f64,
     /// Largest number of threads; default: the number of cores.
@@ -52,9 +52,9 @@ pub struct BenchArguments {
 enum Instructions {
     /// Arrays of eight numbers, vectorised by the compiler.
     Portable,
-    /// AVX2: eight lanes.
+    /// AVX2: eight numbers per instruction.
     Avx2,
-    /// AVX-512: sixteen lanes.
+    /// AVX-512: sixteen numbers per instruction.
     Avx512,
 }
 

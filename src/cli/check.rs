@@ -20,13 +20,13 @@ use crate::{
     sweep::plan::{Sweep, in_words},
 };
 
-/// Full evaluations per second and core [1/s], assumed in the estimate of the run time. A time step has two full
-/// evaluations per particle. `breakwater bench` measures 1.5 million with AVX-512. The estimate uses a smaller value,
-/// because a run also computes gauges, outputs and contact.
+/// Full evaluations per second and core [1/s], assumed in the estimate of the run time. A full evaluation computes all
+/// terms of one particle; a time step has two per particle. `breakwater bench` measures 1.5 million with AVX-512. The
+/// estimate uses a smaller value, because a run also computes gauges, outputs and contact.
 const EVALUATIONS_PER_S_AND_CORE: f64 = 1.2e6;
 
 /// Full evaluations per second and core in two dimensions [1/s]. The rate is higher than in three dimensions, because a
-/// particle has only one sixth of the neighbours.
+/// particle has only one sixth as many neighbours.
 const EVALUATIONS_IN_TWO_DIMENSIONS: f64 = 2.4e6;
 
 /// Validate input files, and estimate the number of particles, memory, file sizes, time step and run time.
@@ -199,8 +199,8 @@ fn print_units(units: &Units) {
     }
 }
 
-/// `check` warns if the overlap at the start, divided by the height of a unit [-], exceeds this value. Units at rest
-/// have an overlap of 0.0001; units wedged in an armour layer have up to 0.005.
+/// `check` warns if the overlap of a unit with another body at the start, divided by the height of the unit [-],
+/// exceeds this value. For units at rest this ratio is 0.0001, for units wedged in an armour layer up to 0.005.
 const WARNING_OVERLAP: f64 = 0.01;
 
 /// Warns if units overlap each other, the bed or a wall at the start.

@@ -11,7 +11,7 @@ use crate::{
     simulation::armour_layer::{PlacementError, place},
 };
 
-/// Overlap at the end, divided by the height of a unit [-], above which `place` gives a warning.
+/// `place` warns if the overlap of two bodies at the end, divided by the height of a unit [-], exceeds this value.
 const GOOD_OVERLAP: f64 = 0.01;
 
 /// Place armour layers: lower the units of a case one by one onto the slope, without water, until they are at rest.

@@ -10,8 +10,8 @@ use super::parallel::lanes::{self, LANES, Lanes, Vectors, WithLanes};
 
 /// Share of the least strength of a body [-]. The faces of a tetrahedron are checked for failure only if the stress in
 /// the tetrahedron reaches this share. To save time, this comparison uses the norm of the first Piola-Kirchhoff stress.
-/// It differs from the norm of the Cauchy stress by a fraction of the order of the strains, far below the margin
-/// of 10 %.
+/// This norm differs from the norm of the Cauchy stress by a fraction of the order of the strains, far below the
+/// margin of 10 %.
 const CHECK_SHARE: f64 = 0.9;
 
 /// Forces of all tetrahedra, and marks for the tetrahedra near failure.

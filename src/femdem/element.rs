@@ -1,9 +1,10 @@
 //! The linear tetrahedron: finite strain, neo-Hookean elasticity with viscosity.
 //!
-//! Deformation gradient F = sum of x_i grad N_i^T, with the position x_i and the shape function N_i of vertex i. Cauchy
-//! stress T = mu/J (B - I) + (lambda ln J / J) I + eta D (Xiang, Munjiza and Latham 2009), with J = det F, B = F F^T,
-//! Lamé's constants lambda and mu, the viscosity eta and the symmetric part D of the velocity gradient. First
-//! Piola-Kirchhoff stress P = J T F^-T. Nodal forces f_i = -V_0 P grad N_i, with the undeformed volume V_0.
+//! The deformation gradient is F = sum of x_i (grad N_i)^T, with the current position x_i and the shape function N_i of
+//! vertex i. The Cauchy stress is T = mu/J (B - I) + (lambda ln J / J) I + eta D (Xiang, Munjiza and Latham 2009), with
+//! J = det F, B = F F^T, the identity matrix I, Lamé's constants lambda and mu, the viscosity eta, and the symmetric
+//! part D of the velocity gradient. The first Piola-Kirchhoff stress is P = J T F^-T. The nodal forces are
+//! f_i = -V_0 P grad N_i, with the undeformed volume V_0.
 
 use glam::{DMat3, DVec3};
 
@@ -104,7 +105,7 @@ pub struct Deformed<L> {
     pub stress_squared: L,
 }
 
-/// Returns the deformation gradient F and its cofactor matrix, det F F^-T.
+/// Returns the deformation gradient F and its cofactor matrix, (det F) F^-T.
 fn deformation(shape: &Shape, x: &[DVec3; 4]) -> (DMat3, DMat3) {
     let f = edges(x) * shape.inverse;
     let cofactor = DMat3::from_cols(f.y_axis.cross(f.z_axis), f.z_axis.cross(f.x_axis), f.x_axis.cross(f.y_axis));
@@ -132,7 +133,7 @@ pub fn forces<L: Lanes>(
     let pressure = moduli.lambda * logarithm(ratio) - moduli.mu;
     let elastic = sum(&scaled(&f, moduli.mu), &scaled(&inverse_transposed, pressure));
     let stress_squared = norm_squared_of(&elastic);
-    // D = sym(dF/dt F^-1). The first Piola-Kirchhoff stress of the Cauchy stress eta D is det F eta D F^-T.
+    // D = sym(dF/dt F^-1). The first Piola-Kirchhoff stress of the Cauchy stress eta D is (det F) eta D F^-T.
     let gradient = times_transposed(&times(&lane_edges(v), &shape.inverse), &inverse_transposed);
     let half = L::splat(0.5);
     let [xy, xz, yz] = [
@@ -205,7 +206,7 @@ fn norm_squared_of<L: Lanes>(m: &Matrices<L>) -> L {
 const SMALL_CHANGE: f64 = 0.02;
 
 /// Returns ln J. If |J - 1| is at most [`SMALL_CHANGE`] in all lanes, the function uses five terms of the series
-/// ln J = 2 (s + s^3/3 + s^5/5 + ...), s = (J - 1) / (J + 1), which are exact to rounding. Otherwise, it uses
+/// ln J = 2 (s + s^3/3 + s^5/5 + ...), s = (J - 1) / (J + 1), whose error is below rounding. Otherwise, it uses
 /// `f64::ln`.
 #[inline(always)]
 fn logarithm<L: Lanes>(ratio: L) -> L {

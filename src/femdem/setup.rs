@@ -33,8 +33,8 @@ pub struct Body {
     pub pivot: DVec3,
 }
 
-/// Default contact penalty over Young's modulus [-]. With 1, a contact is eight times as stiff as the tetrahedron
-/// behind it (see [`super::world::time_step::contact_stiffness`]).
+/// Default contact penalty, divided by Young's modulus [-]. With 1, a contact is eight times as stiff as the
+/// tetrahedron behind it (see [`super::world::time_step::contact_stiffness`]).
 const CONTACT_PENALTY: f64 = 1.0;
 
 /// Prescribed velocities of nodes.

@@ -57,7 +57,7 @@ pub fn measure(solid: &Solid, parts: Vec<Polyhedron>) -> Decomposition {
     for i in 0..count.x {
         for j in 0..count.y {
             for k in 0..count.z {
-                // Faces often lie at round coordinates: the offset keeps sample points off the faces.
+                // Faces often lie at coordinates with few digits. The offset keeps the sample points off the faces.
                 let point = low + step * (DVec3::new(i.into(), j.into(), k.into()) - DVec3::new(0.47, 0.53, 0.49));
                 let in_body = solid.signed_distance(point) < 0.0;
                 let in_parts = parts.iter().any(|part| part.least_distance(point) < 0.0);

@@ -50,9 +50,9 @@ impl Profile {
         (z1 - z0) / (x1 - x0)
     }
 
-    /// Returns the bed with a trapezoidal mound. The crest lies between the two `crest_x` [m] at level `crest_z` [m];
-    /// `run_per_rise` is the horizontal run of each slope per unit of rise. `None` if the crest lies below the bed, or
-    /// a slope does not meet the bed inside the profile.
+    /// Returns the bed with a trapezoidal mound. The mound's crest lies between the two `crest_x` [m] at the level
+    /// `crest_z` [m]; `run_per_rise` is the horizontal run of each slope per unit of rise. `None` if the crest lies
+    /// below the bed, or a slope does not meet the bed inside the profile.
     pub fn with_mound(&self, crest_x: [f64; 2], crest_z: f64, run_per_rise: [f64; 2]) -> Option<Self> {
         if self.z(crest_x[0]) >= crest_z || self.z(crest_x[1]) >= crest_z {
             return None;
@@ -65,7 +65,8 @@ impl Profile {
         Some(Self::new(points))
     }
 
-    /// First point [m] where the slope from (x, z) meets the bed; `run` is its signed run per unit of fall [-].
+    /// First point [m] where a slope that starts at (x, z) meets the bed; `run` is the signed horizontal run of the
+    /// slope per unit of fall [-].
     fn flank_meets_bed(&self, x: f64, z: f64, run: f64) -> Option<[f64; 2]> {
         let crossing = |[xa, za]: [f64; 2], [xb, zb]: [f64; 2]| {
             // Height of the slope above the bed, linear along the segment.

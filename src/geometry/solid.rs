@@ -1,8 +1,8 @@
 //! A body bounded by a closed triangle surface: signed distance, volume, inertia tensor.
 //!
 //! Distances come from the oriented triangle mesh of the library parry. Its pseudo-normals give the correct sign at
-//! edges and vertices (Baerentzen & Aanaes 2005). Volume and inertia are exact sums over the tetrahedra that each
-//! triangle forms with a reference point (Tonon 2004).
+//! edges and vertices (Baerentzen & Aanaes 2005). Each triangle forms a tetrahedron with a reference point. Volume and
+//! inertia are exact sums over these tetrahedra (Tonon 2004).
 
 use std::collections::HashMap;
 
@@ -192,8 +192,8 @@ fn check_closed(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), SolidE
 
 /// Volume, centroid and inertia tensor as sums over signed tetrahedra (o, a, b, c) with a point o near the middle.
 ///
-/// With o as the origin and s = a + b + c, a tetrahedron has the volume V = a.(b x c)/6 and the second moments
-/// int x x^T dV = V/20 (a a^T + b b^T + c c^T + s s^T).
+/// a, b and c are the corners of a triangle. With o as the origin and s = a + b + c, a tetrahedron has the volume
+/// V = a.(b x c)/6 and the second moments int x x^T dV = V/20 (a a^T + b b^T + c c^T + s s^T).
 fn volume_properties(vertices: &[DVec3], triangles: &[[u32; 3]]) -> VolumeProperties {
     let origin = vertices.iter().sum::<DVec3>() / vertices.len() as f64;
     let (mut volume, mut first, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);

@@ -41,7 +41,7 @@ pub struct Face {
 }
 
 impl Face {
-    /// Returns true if the foot point of `point` lies in the triangle, or at most `slack` [m] outside.
+    /// Returns true if the foot of the perpendicular from `point` lies in the triangle, or at most `slack` [m] outside.
     pub fn has_foot_of(&self, point: DVec3, slack: f64) -> bool {
         (0..3).all(|k| {
             let (a, b) = (self.corners[k], self.corners[(k + 1) % 3]);
@@ -93,7 +93,7 @@ impl SurfaceElement {
 const STRAIGHT: f64 = 1e-6;
 
 /// A triangle counts as a line if (2 area)^2 / (longest edge)^4 is at most this value [-]. Such a triangle has no
-/// reliable normal, because the 24 bits of a binary STL file resolve a coordinate to 6e-8 of its value.
+/// reliable normal, because a binary STL file stores a coordinate with 24 bits, to 6e-8 of its value.
 const LINE: f64 = 1e-14;
 
 /// A fixed triangle surface.
@@ -284,7 +284,7 @@ pub(crate) mod tests {
         // The six diagonals lie in flat faces, so they are not ridges.
         assert_eq!(count(&Terrain::new(vertices.clone(), triangles.clone()).unwrap()), [12, 12, 8]);
         let inside_out = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
-        // In a room seen from inside, all edges are concave.
+        // Seen from inside, all edges of the box are concave.
         assert_eq!(count(&Terrain::new(vertices, inside_out).unwrap()), [12, 0, 0]);
     }
 

@@ -6,7 +6,7 @@
 /// `units.csv`: one row per unit and output time. `unit` counts from 1. `x_m` to `z_m` is the centre of mass, `qx` to
 /// `qw` the orientation of the body axes (quaternion). `fluid_*` is the load from the water, `contact_*` the load from
 /// bed, walls and other units: forces [N] and torques [N m] about the centre of mass, averaged over the time since the
-/// previous row.
+/// unit's previous row.
 pub const UNITS: [&str; 27] = [
     "time_s",
     "unit",
@@ -40,7 +40,7 @@ pub const UNITS: [&str; 27] = [
 /// `contacts.csv`: one row per contact event. `partner` is the number of the other unit, from 1, or 0 for bed and
 /// walls. `bx_m`, `by_m`, `bz_m` is the contact position in the body axes of the unit, relative to its centre of mass.
 /// `normal_velocity_m_s` and `tangential_velocity_m_s` are the approach velocities at the start of the event.
-/// `rebound_m_s` is the normal velocity at its end, positive if the bodies separate.
+/// `rebound_m_s` is the normal velocity at the end of the event, positive if the bodies separate.
 pub const CONTACTS: [&str; 15] = [
     "start_s",
     "end_s",
@@ -100,8 +100,8 @@ pub const FRACTURE_ENERGY: [&str; 14] = [
     "pairs_touching",
 ];
 
-/// `bodies.csv` of a fracture run: one row per body and output time of `energy.csv`, with the stored energy, the energy
-/// dissipated in the joints of the body since the start, and the current largest first principal stress. `body` counts
+/// `bodies.csv` of a fracture run: one row per body and output time of `energy.csv`, with its stored energies, the
+/// energy dissipated in its joints since the start, and its largest first principal stress at this time. `body` counts
 /// from 0 in the order of the mesh.
 pub const FRACTURE_BODIES: [&str; 8] =
     ["time_s", "body", "kinetic_j", "strain_j", "joints_j", "gravity_j", "fracture_j", "sigma_1_pa"];
@@ -132,10 +132,11 @@ pub const BREAKAGE: [&str; 10] = [
 ];
 
 /// `diagnostics.csv`: checks of the run. `volume_m3` is the volume of the water, the sum of mass / density of all water
-/// particles; `volume_change_m3` is its change since the first row. `largest_mach` (speed divided by speed of sound)
-/// and the densities are extremes of all time steps since the previous row. `rms_divergence_1_s` is the root mean
-/// square of div v of all water particles. `steps` is the number of time steps since the start, `dt_s` the length of
-/// the next time step. `lost_particles`, the number of water particles lost since the first row, must stay 0.
+/// particles; `volume_change_m3` is its change since the first row. `largest_mach` (water speed / speed of sound) and
+/// the densities are extremes of all time steps since the previous row. `rms_divergence_1_s` is the root mean square of
+/// the divergence of the velocity at all water particles. `steps` is the number of time steps since the start, `dt_s`
+/// the length of the next time step. `lost_particles`, the number of water particles lost since the first row, must
+/// stay 0.
 pub const DIAGNOSTICS: [&str; 10] = [
     "time_s",
     "volume_m3",

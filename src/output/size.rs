@@ -3,7 +3,7 @@
 use super::columns;
 use crate::case::{Case, FluidField, Quantity};
 
-/// Mean size of a number in a CSV table, including its comma [bytes]. The tables of one run had 19.0 to 19.6 bytes.
+/// Mean size of a number in a CSV table, including its comma [bytes]. In the tables of one run: 19.0 to 19.6 bytes.
 const BYTES_PER_NUMBER: f64 = 19.0;
 /// Numbers of columns of `units.csv` (which has one row per unit), `energy.csv` and `diagnostics.csv`.
 const UNIT_COLUMNS: f64 = columns::UNITS.len() as f64;
@@ -27,13 +27,13 @@ const BYTES_PER_BOUNDARY_STATE: f64 = 8.0;
 /// included, because they are small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutputSize {
-    /// `fluid.vtkhdf`, if the amount of water in `output.fluid_box_m` stays the same as at the start.
+    /// Size of `fluid.vtkhdf`, if the amount of water in `output.fluid_box_m` stays the same as at the start.
     pub fluid: f64,
-    /// `units.vtkhdf`, with the surfaces of the units.
+    /// Size of `units.vtkhdf`, which contains the surfaces of the units.
     pub units: f64,
-    /// Sum of the CSV tables.
+    /// Total size of the CSV tables.
     pub tables: f64,
-    /// `checkpoint.h5`; a run keeps only the last checkpoint.
+    /// Size of `checkpoint.h5`; a run keeps only the last checkpoint.
     pub checkpoint: f64,
 }
 
@@ -41,7 +41,7 @@ impl OutputSize {
     /// Estimates the size of the output files of a complete run of the case.
     pub fn estimate(case: &Case) -> Self {
         let (estimate, output) = (case.estimate(), &case.output);
-        // There are two more outputs: one at the start and one at the end.
+        // Two outputs are added: one at the start and one at the end of the run.
         let count = |interval: Option<f64>| interval.map_or(0.0, |dt| (case.stop.duration / dt).floor() + 2.0);
         let bytes_per_particle =
             BYTES_PER_POINT + output.fluid_fields.iter().map(|field| field_bytes(*field)).sum::<f64>();

@@ -97,12 +97,12 @@ pub struct UnitSummary {
     pub start_m: [f64; 3],
     /// Centre of mass at the end [m].
     pub end_m: [f64; 3],
-    /// Angle of the rotation from first to last orientation [deg], 0 to 180.
+    /// Angle of the rotation from the first to the last orientation of the unit [deg], 0 to 180.
     pub rotation_deg: f64,
     /// Largest water force, after subtraction of the mean force in still water [N]. The forces are averages over
     /// `output.series_interval_s`.
     pub peak_fluid_force_n: f64,
-    /// Largest resultant contact force from bed, walls and other units [N]. The forces are averages over
+    /// Largest resultant of the contact forces from bed, walls and other units [N]. The forces are averages over
     /// `output.series_interval_s`.
     pub peak_contact_force_n: f64,
     /// Number of contact events with bed and walls.
@@ -150,7 +150,7 @@ pub struct WaveSummary {
     /// order, `madsen`: second order).
     pub theory: String,
     /// Wave height H [m]; for irregular waves the significant wave height H_s; for a solitary wave the height of the
-    /// crest above still water level at the piston.
+    /// crest above still water level where the wave is generated.
     pub height_m: f64,
     /// Period of regular waves, or peak period of irregular waves [s].
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -79,8 +79,8 @@ pub struct Contact {
     pub rolling_spring: DVec3,
     /// Overlap [m].
     pub overlap: f64,
-    /// Overlap at which the contact force starts [m]; above 0 only if a contact with a triangle surface started with
-    /// an overlap.
+    /// Overlap at which the contact force starts [m]; above 0 only for a contact that starts on a triangle surface
+    /// during a run. See [`Self::started`].
     pub initial_overlap: f64,
     /// Nearest point as in [`ContactPoint::core`] [m]; the next search starts there.
     pub core: DVec3,
@@ -110,8 +110,8 @@ impl Contact {
 
     /// Creates a contact that has just started.
     ///
-    /// On a triangle surface, a part in contact with neighbouring elements can reach another ridge with an overlap.
-    /// This overlap is subtracted, because it would create energy. An overlap at the start of a run is not subtracted.
+    /// A part that moves along a triangle surface can reach the next ridge with an overlap, which would create energy.
+    /// Therefore the contact force starts at this overlap. An overlap at the start of a run is not subtracted.
     pub fn started(point: &ContactPoint, substep: Substep) -> Self {
         let on_terrain = matches!(point.key.feature, Feature::Terrain { .. });
         let initial_overlap = if on_terrain && substep.dt > 0.0 { point.overlap } else { 0.0 };

@@ -11,8 +11,8 @@ use super::record::{ContactRecords, ForceStep};
 use super::setup::RigidSetup;
 
 /// Energy balance of all bodies [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
-/// load_work is constant. Small errors come from the time stepping, and from the tangential stiffness, because it
-/// changes with the overlap.
+/// load_work is constant. Small errors come from the time stepping, and from the change of the tangential stiffness
+/// with the overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// Kinetic energy of translation and rotation.
@@ -65,7 +65,7 @@ impl Laws {
             wall: fixed(wall_material, friction.unit_wall),
             mass,
             least_radius: radius,
-            // The smallest eigenvalue of a symmetric positive tensor is at least det / (trace / 2)^2.
+            // The smallest eigenvalue of an inertia tensor is at least determinant / (trace / 2)^2.
             least_inertia: setup.shape.inertia.determinant()
                 / (0.5 * (0..3).map(|i| setup.shape.inertia.col(i)[i]).sum::<f64>()).powi(2),
         }
@@ -125,7 +125,7 @@ impl Laws {
         for (old, record) in before.iter().zip(old_records).filter_map(|(old, record)| Some((old, record?))) {
             energy.friction += old.elastic[1] + old.elastic[2];
             if let Feature::Terrain { .. } = old.key.feature {
-                // A part can leave a ridge before its overlap is zero. The stored energy then counts as dissipated.
+                // A contact with a ridge can end before its overlap is zero. The stored energy counts as dissipated.
                 energy.damping += old.elastic[0];
             }
             records.end(record, old.force, substep);
@@ -134,8 +134,8 @@ impl Laws {
         out
     }
 
-    /// Adds the stiffness [N/m] of a contact to the sums of its bodies. A contact that can start within the horizon
-    /// counts too.
+    /// Adds the stiffness [N/m] of a contact to the sum of each of its bodies. A contact that can start within the
+    /// horizon counts too.
     fn add_stiffness(&self, pair: &ContactMotion, substep: Substep, stiffness: &mut [f64]) {
         let (point, law) = (pair.point, self.law_of(pair.point.key.feature));
         let closing = (-pair.v_n).max(0.0);
@@ -243,7 +243,7 @@ fn find(
         let left = |(c, used): (&Contact, &bool)| {
             let same_part = (c.key.body, c.key.part) == (key.body, key.part);
             let next = same_part && !*used && are_neighbours(c.key.feature, key.feature) && !touching(&c.key);
-            // Neighbouring ground elements have no gap, so the foot point moves only a short distance between them.
+            // Neighbouring ground elements have no gap between them, so `core` moves only a short distance.
             next.then(|| c.core.distance(point.core)).filter(|path| *path < least_radius)
         };
         let paths = before.iter().zip(used.iter()).map(left).enumerate();

@@ -77,8 +77,8 @@ mod tests {
 
     /// Time between two flips of a body with inertia (1, 2, 3) rotating about its middle axis: 2 K(k)/p with
     /// p^2 = (I_3 - I_2)(L^2 - 2 E I_1)/(I_1 I_2 I_3), k^2 = (I_2 - I_1)(2 E I_3 - L^2)/((I_3 - I_2)(L^2 - 2 E I_1))
-    /// for L^2 > 2 E I_2, with the kinetic energy E; otherwise indices 1 and 3 are swapped. K is computed by the
-    /// arithmetic-geometric mean.
+    /// for L^2 > 2 E I_2, with the kinetic energy E; otherwise indices 1 and 3 are swapped. The arithmetic-geometric
+    /// mean gives the complete elliptic integral K.
     fn flip_time(w: DVec3) -> f64 {
         let i = DVec3::new(1.0, 2.0, 3.0);
         let (two_e, l2) = ((i * w * w).element_sum(), (i * i * w * w).element_sum());

@@ -17,15 +17,15 @@ use super::record::{ContactEvent, ContactRecords, RecordedContact};
 use super::search::{PartPair, Placements, Surfaces};
 use super::setup::{RigidSetup, Sides};
 
-/// Number of substeps in the shortest oscillation period of a body on its contact springs [-]. With 80, the restitution
-/// of an impact is accurate to 1e-3 (see the tests). An impact lasts about two thirds of this period.
+/// Number of substeps in the shortest oscillation period of a body on its contact springs [-]. With 80 substeps, the
+/// restitution of an impact is accurate to 1e-3 (see the tests). An impact lasts about two thirds of this period.
 const STEPS_PER_PERIOD: f64 = 80.0;
 
 /// Longest substep [s]. The contact search covers everything that a body can reach within this time at twice its speed.
 /// Therefore no contact starts with a large overlap.
 const LONGEST_SUBSTEP: f64 = 1e-3;
 
-/// Safety factor on the distance that a surface moves in a substep [-]. A body may rotate slightly faster at one end of
+/// Safety factor on the distance that a surface moves in a substep [-]. A body can rotate slightly faster at one end of
 /// the substep than on average.
 const PATH_SAFETY: f64 = 1.01;
 
@@ -64,7 +64,7 @@ pub struct RigidWorld {
     pairs: Vec<PartPair>,
     /// Pairs of `pairs` whose parts can be in contact now.
     near: Vec<PartPair>,
-    /// Largest gap of the pairs of parts in `pairs`, when the list was built [m].
+    /// Largest gap [m] of two parts that `pairs` includes; the gap when the list was built counts.
     pub(super) search_distance: f64,
     /// Upper bound of the distance that the surface of each body has moved since `pairs` was built [m].
     pub(super) path: Vec<f64>,

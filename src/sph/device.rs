@@ -186,7 +186,7 @@ mod tests {
             (antuono, "density_diffusion"),
         ] {
             assert!(unsupported_on_gpu(&parameters).is_some_and(|what| what.contains(key)), "{key}");
-            // `gpu:0` is refused with an error. `auto` uses the processor and gives the reason.
+            // With `gpu:0`, the function returns an error. `auto` uses the processor and gives the reason.
             let refused = Device::open(DeviceChoice::Gpu(0), unsupported_on_gpu(&parameters)).unwrap_err().to_string();
             assert!(refused.contains(key) && refused.contains("--device cpu"), "{refused}");
             let (device, reason) = Device::open(DeviceChoice::Auto, unsupported_on_gpu(&parameters)).unwrap();

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`device`] | choice between the processor (CPU) and a graphics card (GPU) |
 //! | [`gpu`] | the time step on a graphics card |
-//! | [`solver`] | the time step on the processor, its size, power balance of the water, sampling for gauges |
+//! | [`solver`] | the time step on the processor (operations, size), power balance of the water, sampling for gauges |
 //! | [`pairs`] | sums over pairs of neighbours: rates and gradients |
 //! | [`boundary`] | density and velocity of boundary particles, from ghost nodes |
 //! | [`neighbours`] | cell list, neighbour lists, particle records |

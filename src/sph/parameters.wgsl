@@ -19,7 +19,7 @@ struct Parameters {
     inv_2h: f32,
     // Constant factor alpha_D of the kernel W [1/m3].
     kernel_scale: f32,
-    // Constant factor of G, where grad_a W_ab = G r_ab: -5 alpha_D / h^2 [1/m5].
+    // Constant factor of G, where grad_a W_ab = G r_ab (kernel.rs): -5 alpha_D / h^2 [1/m5].
     gradient_scale: f32,
     // Reference density rho0 [kg/m3].
     rho0: f32,
@@ -27,22 +27,22 @@ struct Parameters {
     alpha: f32,
     // Factor of the density diffusion, equation 4: -2 delta h c0 [m2/s].
     diffusion: f32,
-    // First coefficient of rho^H in equation 5: rho0 g / c0^2 [kg/m4]; zero if the total density is diffused.
+    // Factor A of rho_ab^H = A z_ab (1 - B z_ab), equation 5: rho0 g / c0^2 [kg/m4]; zero to diffuse the total density.
     hydrostatic: f32,
-    // Second coefficient of rho^H: (gamma - 1) g / (2 c0^2) [1/m].
+    // Factor B of the same formula: (gamma - 1) g / (2 c0^2) [1/m].
     curvature: f32,
     // Gravitational acceleration g [m/s2].
     gravity: f32,
     // Vertical density gradient at hydrostatic pressure, -rho0 g / c0^2 [kg/m4]; mDBC extrapolates densities with it.
     density_slope: f32,
     padding: f32,
-    // Limits between which the trust in a fitted gradient changes: centroid of the water around a ghost node [h], and
-    // spread of this water [h2] (mdbc.rs).
+    // Between these limits, the trust in a fitted gradient changes: limits of the distance from a ghost node to the
+    // centroid of the water around it [h], and of the spread of this water [h2] (mdbc.rs).
     centroid_limits: vec2<f32>,
     spread_limits: vec2<f32>,
     // Smallest determinant, divided by (sum of W V)^4, for which mDBC fits a gradient [-].
     least_determinant: f32,
-    // Sum of W V below which a ghost node is dry [-].
+    // A ghost node is dry if its sum of W V is below this value [-].
     dry: f32,
     // Corners of the box in which all particles must stay, relative to the low corner of the grid [m].
     bounds_low: vec3<f32>,

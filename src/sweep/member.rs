@@ -10,7 +10,7 @@ use crate::output::Summary;
 pub enum Outcome {
     /// The run is finished.
     Finished(Box<Summary>),
-    /// The run is not finished.
+    /// The run is not finished, and its log does not end with a failure.
     Missing,
     /// The run failed; the text is the last line of its log.
     Failed(String),

@@ -9,8 +9,8 @@
 //! | [`slurm`] | runs as a job array of the Slurm workload manager |
 //! | [`table`] | the results of all runs as a table |
 //!
-//! Each run is a separate process, so a crash does not affect the other runs. Finished runs are kept, interrupted runs
-//! resume from their checkpoint, and failed runs get a second attempt.
+//! Each run is a separate process, so a crash does not affect the other runs. Finished runs are kept, and interrupted
+//! runs resume from their checkpoint. On this machine, a failed run gets a second attempt.
 
 pub mod key;
 pub mod member;

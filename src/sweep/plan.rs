@@ -155,7 +155,7 @@ impl Sweep {
         Ok(Self { title: file.title, case, varied, combine: file.combine, members, start })
     }
 
-    /// Returns the run with a number; 0 for the common start.
+    /// Returns the run with the number `number`, from 1; 0 gives the common start.
     pub fn member(&self, number: usize) -> Option<&Member> {
         match number.checked_sub(1) {
             Some(index) => self.members.get(index),
@@ -164,7 +164,8 @@ impl Sweep {
     }
 }
 
-/// Returns the common start: a copy of the first run that ends at the time `until` [s]. Every run lasts `duration` [s].
+/// Returns the common start: it computes the case of the first run, but only until the time `until` [s]. `duration` [s]
+/// is the duration of all other runs.
 fn start(members: &[Member], until: f64, duration: f64) -> Result<Member, String> {
     let first = &members[0];
     if let Some(other) = members.iter().find(|other| other.start_hash != first.start_hash) {
@@ -258,7 +259,7 @@ fn note_differences(run: &mut Value, given: &Value, keys: &[&str]) {
     }
 }
 
-/// Returns the changed keys of a run and their values, as in `coefficient=0.32 height_m=0.045`.
+/// Returns the keys that a run changes, with their values, as in `coefficient=0.32 height_m=0.045`.
 fn label(varied: &[Varied], changes: &[Option<Value>]) -> String {
     let one =
         |(one, value): (&Varied, &Option<Value>)| Some(format!("{}={}", short(&one.key), in_words(value.as_ref()?)));

@@ -2,11 +2,10 @@
 //! that of Koshizuka & Oka (1996): a column of width L and height 2L, here with L = 1 m.
 //!
 //! The measured points, which Koshizuka & Oka show, are those of Martin & Moyce (1952) with a column 57 mm wide, scaled
-//! to L = 1 m. These points lag
-//! behind every exact solution: from the second point on, the tip of inviscid water without a gate, [`POTENTIAL_FLOW`],
-//! is 10 to 18 % (49 to 65 ms) ahead of the measured points. No single time lag fits both the first and the second
-//! point. The tests therefore compare the run with the exact solution, and with the measurement after one time lag for
-//! all points.
+//! to L = 1 m. These points lag behind every exact solution: from the second point on, the tip of inviscid water
+//! without a gate, [`POTENTIAL_FLOW`], is 10 to 18 % (49 to 65 ms) ahead of the measured points. No single time lag
+//! fits both the first and the second point. The tests therefore compare the run with the exact solution, and with the
+//! measurement after one time lag for all points.
 
 use std::{path::Path, sync::Arc};
 
@@ -145,9 +144,9 @@ fn compare(dp: f64) -> (f64, f64) {
 #[test]
 fn dam_break_tip_follows_potential_flow_coarse() {
     let (from_exact, from_measured) = compare(0.02);
-    // Reached: 2.5 % from potential flow.
+    // Reached: a deviation of 2.5 % from potential flow.
     assert!(from_exact < 0.035);
-    // Target: 3 % from the measurement; reached: 2.1 %.
+    // Target: a deviation of at most 3 % from the measurement; reached: 2.1 %.
     assert!(from_measured < 0.03);
 }
 
@@ -158,6 +157,6 @@ fn dam_break_tip_follows_potential_flow_coarse() {
 fn dam_break_tip_follows_potential_flow_fine() {
     let [(coarse, _), (fine, from_measured)] = [0.01, 0.005].map(compare);
     assert!(fine < coarse);
-    // Target: 3 % from the measurement; reached with dp = 0.01 m: 1.9 %.
+    // Target: a deviation of at most 3 % from the measurement; reached with dp = 0.01 m: 1.9 %.
     assert!(from_measured < 0.03);
 }

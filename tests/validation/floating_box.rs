@@ -1,5 +1,5 @@
-//! A box that floats freely in regular waves: Ren, He, Dong & Wen (2015), 0.30 m long, 0.20 m high, half the density of
-//! water, in 0.40 m of water, H = 0.10 m, T = 1.2 s.
+//! A box floats freely in regular waves, as in the experiment of Ren, He, Dong & Wen (2015). It is 0.30 m long and
+//! 0.20 m high, with half the density of water. The water is 0.40 m deep; the waves have H = 0.10 m and T = 1.2 s.
 //!
 //! The test aligns the first full heave crests, because measurement and computation start at different times. It fits
 //! a + b t + C cos(omega t) + S sin(omega t) to the five periods after this crest. It compares amplitude and phase of
@@ -107,7 +107,7 @@ fn first_full_crest(rows: &[Row]) -> Option<f64> {
 #[derive(Debug, Clone, Copy)]
 struct Fit {
     mean: f64,
-    /// Drift [1/s].
+    /// Drift, in the unit of the motion per second.
     drift: f64,
     amplitude: f64,
     /// Phase after the first full heave crest [degrees].

@@ -1,4 +1,5 @@
-//! Regular waves over a submerged bar: Beji & Battjes, T = 2.02 s, H = 2 cm in 0.4 m of water.
+//! Compares the flume model with regular waves over a submerged bar, as Beji & Battjes (1993) measured them: T = 2.02 s
+//! and H = 2 cm in 0.4 m of water.
 //!
 //! The bar has a seaward slope of 1:20 and a shoreward slope of 1:10. Its crest is 0.1 m below the still water level.
 //! Behind the bar, bound harmonics become free waves. A beach of 1:25 closes the flume from x = 18.95 m on. The surface
@@ -26,7 +27,7 @@ type Gauges = Vec<Vec<[f64; 2]>>;
 /// Returns the measured elevations from each source.
 ///
 /// The same tolerance applies to both sources. For skills of 0.4 to 0.8, the skills with the table and with the full
-/// series differ by at most 0.03, and by 0.01 on average, because the six harmonics leave out only scatter.
+/// series differ by at most 0.03, on average by 0.01, because the six harmonics leave out only scatter.
 fn measured() -> Vec<(&'static str, Gauges)> {
     data::table_and_series(gauges_of_table(), (4..12).map(gauge_of_series).collect())
 }

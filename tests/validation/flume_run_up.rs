@@ -1,5 +1,5 @@
-//! Solitary waves on a plane beach of 1:19.85 after Synolakis (1987): the analytic solution and the laboratory data of
-//! benchmark problems 1 and 4 of the US tsunami hazard programme.
+//! Compares solitary waves on a plane beach of 1:19.85 with Synolakis (1987): the analytic solution and the laboratory
+//! data of benchmark problems 1 and 4 of the US tsunami hazard programme.
 //!
 //! Lengths are in units of the depth d, times in units of sqrt(d/g). x points seaward from the still-water shoreline.
 //! At t = 0 the crest is at X1 = 19.85 + arccosh(sqrt(20)) / sqrt(3H/4d), half a wave length before the toe.
@@ -16,23 +16,23 @@ use super::data;
 
 const GRAVITY: f64 = 9.81;
 const COT_BETA: f64 = 19.85;
-/// Distance from the inflow to X1 over d [-].
+/// Distance from the inflow to X1, divided by d [-].
 const RUN_IN: f64 = 10.0;
 /// Bed friction of the smooth bed and beach in the laboratory.
 const GLASS: Friction = Friction::SmoothBed { viscosity_m2_s: 1e-6 };
 
-/// Returns the run-up over d of non-breaking and of breaking waves (Synolakis 1987, equations 5.1 and 6.1).
+/// Returns the run-up R/d of non-breaking and of breaking waves (Synolakis 1987, equations 5.1 and 6.1).
 fn run_up_law(height: f64) -> [f64; 2] {
     [2.831 * COT_BETA.sqrt() * height.powf(1.25), 0.918 * height.powf(0.606)]
 }
 
 /// One wave on the beach.
 struct Beach {
-    /// Wave height over depth, H/d [-].
+    /// Wave height divided by depth, H/d [-].
     height: f64,
     /// Depth d [m].
     depth_m: f64,
-    /// Cell length over d [-].
+    /// Cell length divided by d [-].
     cell: f64,
     pressure: Pressure,
     friction: Friction,
@@ -43,7 +43,7 @@ impl Beach {
         ThirdOrderSolitary { height_m: self.height * self.depth_m, depth_m: self.depth_m, gravity: GRAVITY }
     }
 
-    /// Returns half a wave length over d [-]: X1 - 19.85.
+    /// Returns half a wave length, X1 - 19.85, divided by d [-].
     fn half_wave(&self) -> f64 {
         20f64.sqrt().acosh() / (0.75 * self.height).sqrt()
     }
@@ -89,7 +89,7 @@ impl Beach {
         .unwrap_or_else(|error| panic!("H/d = {}: {error}", self.height))
     }
 
-    /// Returns the highest shoreline level over d; it occurs before t = 45 + 1.5 half wave lengths.
+    /// Returns the highest shoreline level divided by d. The level occurs before t = 45 + 1.5 half wave lengths.
     fn run_up(&self) -> f64 {
         let record = self.run(&[], &[], 45.0 + 1.5 * self.half_wave());
         record.shore_level_m.iter().copied().fold(0.0, f64::max) / self.depth_m
@@ -100,7 +100,7 @@ fn rms(errors: &[f64]) -> f64 {
     (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt()
 }
 
-/// Returns the rms difference between a profile of the flume model and points (x, eta), over H [-].
+/// Returns the rms difference between a profile of the flume model and points (x, eta), divided by H [-].
 fn profile_error(beach: &Beach, record: &FlumeRecord, index: usize, points: impl Iterator<Item = [f64; 2]>) -> f64 {
     let profile = &record.profiles[index];
     let difference = |[x, eta]: [f64; 2]| {
@@ -120,8 +120,8 @@ struct Analytic {
 }
 
 impl Analytic {
-    /// Returns the rms differences between model and analytic solution over H [-]: for the two series, then for the
-    /// profiles.
+    /// Returns the rms differences between model and analytic solution, divided by H [-]: for the two series, then for
+    /// the profiles.
     fn differences(&self, source: &str, beach: &Beach, record: &FlumeRecord) -> Vec<f64> {
         let mut errors = Vec::new();
         for gauge in 0..2 {
@@ -161,8 +161,8 @@ fn analytic_solution() -> Vec<(&'static str, Analytic)> {
     data::table_and_series(table, full)
 }
 
-/// Returns, for each source of the analytic solution, the rms differences over H [-]: for the series at x = 0.25 and
-/// 9.95, then for the profiles at t = 35, 40 .. 70.
+/// Returns, for each source of the analytic solution, the rms differences, divided by H [-]: for the series at x = 0.25
+/// and 9.95, then for the profiles at t = 35, 40 .. 70.
 fn differences_from_analytic(pressure: Pressure, cell: f64) -> Vec<Vec<f64>> {
     let beach = Beach { height: 0.019, depth_m: 1.0, cell, pressure, friction: Friction::None };
     let times: Vec<f64> = (0..8).map(|i| 35.0 + 5.0 * f64::from(i)).collect();
@@ -176,12 +176,13 @@ fn differences_from_analytic(pressure: Pressure, cell: f64) -> Vec<Vec<f64>> {
 #[test]
 fn hydrostatic_wave_on_the_beach_follows_the_analytic_solution() {
     let errors = differences_from_analytic(Pressure::Hydrostatic, 0.05);
-    // Limit: 3 % of H is 0.6 mm in 1 m of water. The largest error is at the lowest shoreline, t = 70.
+    // Limit for the rms differences: 3 % of H, which is 0.6 mm in 1 m of water. The largest is at the lowest shoreline,
+    // t = 70.
     assert!(errors.iter().flatten().all(|error| *error < 0.03));
 }
 
-/// With vertical accelerations the wave disperses on the slope, arrives 0.3 sqrt(d/g) later and is a little lower. The
-/// difference is 3 to 5 % of H on any grid.
+/// With vertical accelerations the wave disperses on the slope, arrives 0.3 sqrt(d/g) later and is a little lower. It
+/// differs from the analytic solution by 3 to 5 % of H on any grid.
 #[test]
 fn dispersive_wave_on_the_beach_is_near_the_analytic_solution() {
     for errors in differences_from_analytic(Pressure::NonHydrostatic, 0.1) {
@@ -210,7 +211,7 @@ fn laboratory_profiles(name: &str, times: &[f64]) -> Vec<(&'static str, Vec<Vec<
 struct LaboratoryDifference {
     /// "table" or "full series".
     source: &'static str,
-    /// Root mean square difference from each profile over H [-].
+    /// Root mean square difference from each profile, divided by H [-].
     errors: Vec<f64>,
     /// Time shift, in sqrt(d/g), with the smallest mean difference. It is the same for all profiles.
     shift: f64,
@@ -244,7 +245,8 @@ fn differences_from_laboratory(height: f64, depth_m: f64, name: &str, times: &[f
 #[test]
 fn profiles_on_the_beach_agree_with_the_laboratory() {
     let cases = [
-        // Limits 0.25 H for the low wave and 0.1 H for the high wave: neighbouring measured points differ by as much.
+        // Limits for the rms differences: 0.25 H (low wave), 0.1 H (high wave). Neighbouring measured points differ by
+        // as much.
         (0.0185, 0.30, "0_0185", [30.0, 40.0, 50.0, 60.0, 70.0].as_slice(), 0.25),
         (0.30, 0.16, "0_3", &[15.0, 20.0, 25.0, 30.0], 0.1),
     ];

@@ -1,4 +1,4 @@
-//! Dam break against a stack of three cubes: the experiment of Canelas et al. (2016).
+//! Compares a dam break against a stack of three cubes with the experiment of Canelas et al. (2016).
 
 use std::{path::Path, sync::Arc};
 
@@ -101,8 +101,8 @@ const READING_ERROR: f64 = 0.0033;
 #[test]
 fn stack_is_at_rest_until_the_water_arrives() {
     // The lowest cube is left out, because its measured position moves 43 mm within 0.25 s of the opening of the gate.
-    // No water can have reached it: by then, the fastest possible tip, 2 sqrt(g H) t, has travelled 0.98 m of the 1.7
-    // m.
+    // No water can have reached the cube: by then, the fastest possible tip, 2 sqrt(g H) t with the depth H = 0.4 m,
+    // has travelled 0.98 m of the 1.7 m.
     let sources = deviations(0.05, 0.53);
     for [deviation, error] in sources.iter().flat_map(|series| series[1..].iter().flatten()) {
         assert!(deviation.abs() <= error + READING_ERROR, "{deviation}");

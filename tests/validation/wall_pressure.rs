@@ -67,8 +67,8 @@ fn spectrum(series: &[f64]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Returns the rms pressure above [`NOISE_HZ`] over the mean pressure [-], or infinity if the run failed. Prints series
-/// and spectrum.
+/// Returns the rms pressure above [`NOISE_HZ`], divided by the mean pressure [-], or infinity if the run failed. Prints
+/// series and spectrum.
 fn noise(diffusion: &str, sound_speed_factor: f64) -> f64 {
     let series = match wall_pressure(diffusion, sound_speed_factor) {
         Ok(series) => series,

@@ -66,8 +66,8 @@ fn compare(dp: f64, height: f64) -> [f64; 2] {
 #[test]
 fn an_absorbing_piston_does_not_reflect_the_wave_coarse() {
     let [without, with] = compare(0.025, 0.09);
-    // Limit 10 % of the incident crest after reflection by the absorbing piston. Reached: 4.5 %, a sixth of a particle
-    // spacing.
+    // Limit for the wave after reflection by the absorbing piston: 10 % of the incident crest. Reached: 4.5 %, which is
+    // a sixth of a particle spacing.
     assert!(without > 0.5 && with < 0.1);
 }
 

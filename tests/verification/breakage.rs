@@ -57,7 +57,7 @@ fn a_rerun_impact_keeps_momentum_energy_and_impulse() {
     assert!((momentum - expected).length() < 1e-6 * expected.length(), "{momentum} {expected}");
     let (_, bodies) = start.step_with_body_energies().unwrap();
     let energy = 0.5 * 0.3 * before.velocity.length_squared() * 50f64.powi(4);
-    // Limit 1e-6, plus the work of gravity: the energy is computed half a time step later.
+    // Limit for the energy: 1e-6 plus the work of gravity, because the energy is computed half a time step later.
     let fallen = expected.z.abs() * 9.81 * start.dt;
     assert!((bodies[0].kinetic - energy).abs() < 1e-6 * energy + fallen, "{} {energy}", bodies[0].kinetic);
 
@@ -72,8 +72,8 @@ fn a_rerun_impact_keeps_momentum_energy_and_impulse() {
         (reenacted + weight) / rigid,
         (by_loads + weight) / rigid
     );
-    // Limit 10 % for the re-enacted collision, 0.1 % for the load history. The load history keeps the recorded impulse,
-    // except for the ramps between its rows.
+    // Limits for the impulse: 10 % for the re-enacted collision, 0.1 % for the load history. The load history keeps the
+    // recorded impulse, except for the ramps between its rows.
     assert!(((reenacted + weight) / rigid - 1.0).abs() < 0.1);
     assert!(((by_loads + weight) / rigid - 1.0).abs() < 1e-3);
 }
@@ -89,7 +89,8 @@ fn stress_grows_with_the_scale_by_the_law_of_hertz() {
         case["breakage"]["joints"] = json!("unbreakable");
         case["breakage"]["way"] = json!("re_enact");
         case["breakage"]["duration_s"] = json!(4e-4 * scale);
-        // The viscosity is scaled to dissipate the same share of the energy of an elastic wave at any scale.
+        // The viscosity is proportional to the scale, so an elastic wave loses the same share of its energy at any
+        // scale.
         case["breakage"]["material"]["viscosity_pa_s"] = json!(4e3 * scale);
         rerun_impacts(&case, &dir).impacts[0].found[0].sigma_1_pa
     };

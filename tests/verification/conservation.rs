@@ -21,8 +21,8 @@ use super::two_dimensional::in_two_dimensions;
 fn a_dam_break_keeps_its_mass_and_gains_no_energy() {
     // Limits: largest rise of the total energy above an earlier value, divided by the initial potential energy. Reached
     // in the first 50 ms: 5e-5 with no slip (`original`), 3.4e-4 with free slip. After the release, a pressure wave
-    // travels through the column. It does work on bed and wall, which return this work: with free slip, 0.03 % of the
-    // energy in the first 50 ms, and nothing afterwards.
+    // travels through the column. It does work on bed and wall, and they return this work. With free slip, they return
+    // 0.03 % of the energy in the first 50 ms, and nothing afterwards.
     for (slip, limit) in [("original", 3e-4), ("free_slip", 6e-4)] {
         let mut case = in_two_dimensions(dam_break(0.025, 0.3));
         case["numerics"] = serde_json::json!({ "wall_slip": slip });
@@ -88,12 +88,12 @@ struct Drift {
     momentum: f64,
     /// |angular momentum - angular momentum at the start| / sum |m r x v| [-].
     angular: f64,
-    /// Mean change of a particle's momentum in a time step, over the mean momentum of a particle [-].
+    /// Mean change of a particle's momentum in a time step, divided by the mean momentum of a particle [-].
     impulse: f64,
 }
 
-/// Advances a drop without gravity, with a particle spacing [m], by a number of time steps. Its initial density varies
-/// by the share `squeezed`; `adjust` changes the scheme.
+/// Advances a drop without gravity, with a particle spacing [m], by a number of time steps. The initial density of the
+/// drop varies by the share `squeezed`; `adjust` changes the scheme.
 fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters)) -> Drift {
     let mut parameters = parameters(dp, 0.2, 0.0, None);
     adjust(&mut parameters);
@@ -134,14 +134,15 @@ fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters
 }
 
 /// The time integration conserves momentum and angular momentum, so only asymmetric pair forces could change them. The
-/// pair forces of pressure and artificial viscosity are V_a V_b (p_a + p_b + ...) G r_ab in both directions and differ
-/// only by rounding in single precision. Rounding affects the sum of some 280 pair forces and the positions. The
-/// rounding errors are random, so the relative error falls with the number of particles. With 1,600, 4,200, 12,000 and
-/// 34,000 particles, the angular momentum changes by 4.7e-10, 1.9e-10, 1.4e-10 and 0.5e-10 in 1,000 steps.
+/// pair forces of pressure and artificial viscosity on the particles a and b are V_a V_b (p_a + p_b + ...) G r_ab, with
+/// volumes V, pressures p and kernel gradient G r_ab. The forces on a and b are equal and opposite except for rounding
+/// in single precision. Rounding affects the sum of some 280 pair forces and the positions. The rounding errors are
+/// random, so the relative error falls with the number of particles. With 1,600, 4,200, 12,000 and 34,000 particles,
+/// the angular momentum changes by 4.7e-10, 1.9e-10, 1.4e-10 and 0.5e-10 in 1,000 steps.
 #[test]
 fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
     let drift = drift(RADIUS / 20.0, 1000, 0.0, |_| ());
-    // Reached: 3.7e-11 for momentum, 4.8e-11 for angular momentum.
+    // Reached: changes of 3.7e-11 for momentum and 4.8e-11 for angular momentum.
     assert!(drift.momentum < 1e-10, "{}", drift.momentum);
     assert!(drift.angular < 1e-10, "{}", drift.angular);
 }
@@ -156,7 +157,7 @@ fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
 #[test]
 fn only_pair_forces_along_r_keep_angular_momentum() {
     let dp = RADIUS / 10.0;
-    // The forces in the squeezed drop are ten times larger than in the test above. Reached: 1e-10 to 3e-10.
+    // The forces are ten times larger than in the drop that is not squeezed. Reached: changes of 1e-10 to 3e-10.
     let rounding = 1e-9;
     let run = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
         println!("{name}:");

@@ -15,9 +15,10 @@ use super::blocks::{DP, USUAL, block, gradients, ideal, inside, lattice_error_of
 use super::lattice::{gradient_factor, lattice_sum, points, transform, value};
 use super::tanks::RHO0;
 
-/// Density diffusion damps a density wave with the wave number k at the rate 2 delta h c0 sum V |G| (1 - cos k.r),
-/// where grad W = G r. For long waves, this rate is delta h c0 k^2. The integral of |G| is 7 / (2 h^2), so the rate is
-/// at most 7 delta c0 / h. This largest rate limits delta in case files.
+/// Density diffusion damps a density wave with the wave vector k at the rate 2 delta h c0 sum V |G| (1 - cos k.r)
+/// [1/s]. The sum is over the neighbours, with volume V, distance vector r and grad W = G r. For long waves, the rate
+/// is delta h c0 k^2. The integral of |G| is 7 / (2 h^2), so the rate is at most 7 delta c0 / h. This limits delta in
+/// case files.
 #[test]
 fn density_diffusion_damps_waves_at_the_rate_of_theory() {
     let mut parameters = ideal(DP, None);
@@ -33,7 +34,7 @@ fn density_diffusion_damps_waves_at_the_rate_of_theory() {
             let excess = water.density[i] - RHO0;
             [product - excess * f64::from(rate.density), square + excess * excess]
         });
-        // The rate, divided by 2 delta c0 / h.
+        // The damping rate, divided by 2 delta c0 / h.
         let found = sums[0] / sums[1] * h / (2.0 * delta * c0);
         let term = |r: DVec3| -gradient_factor(&kernel, r.length()) * (1.0 - wave.dot(r).cos());
         let theory = USUAL * USUAL * lattice_sum(&kernel, term);
@@ -41,8 +42,8 @@ fn density_diffusion_damps_waves_at_the_rate_of_theory() {
         println!("diffusion of k dp = {wave:.2}: {found:.4}, theory {theory:.4}, of long waves {long:.4}");
         // Limit 1e-5: the excess over rho0 is stored in single precision, with differences of 1 kg/m3.
         assert!((found / theory - 1.0).abs() < 1e-5, "{wave}");
-        // Divided by the rate of long waves, the moments of |G| give 1 - (h k)^2 / 15 + (h k)^4 / 371. The limit adds
-        // 1e-3, because the lattice error is 4e-4.
+        // The rate, divided by that of long waves, is 1 - (h k)^2 / 15 + (h k)^4 / 371 from the moments of |G|. The
+        // limit adds 1e-3, because the lattice error is 4e-4.
         let series = 1.0 - 2.0 / 15.0 * long;
         assert!(long > 1.0 || (found / long - series).abs() < 0.015 * long * long + 1e-3, "{wave}");
         assert!(found < 3.5, "{wave}");
@@ -74,8 +75,8 @@ fn operators_converge_with_second_order() {
             2.0 / 15.0 * (h * wave_number).powi(2)
         );
         // Limit 2e-5: pressures of 1000 Pa have a rounding error of 6e-8 in single precision, but differ by only 2 h k
-        // 1000 Pa within the kernel support. The second term of the limit: the lattice error of a wave differs from
-        // that of a linear field by the share (h k)^2.
+        // 1000 Pa within the kernel support (wave number k). The second term of the limit: the lattice error of a wave
+        // differs from that of a linear field by the share (h k)^2.
         let allowed = 2e-5 + 2.0 * (h * wave_number).powi(2) * lattice_error;
         assert!((found[0] - (1.0 - smoothed - lattice_error)).abs() < allowed, "{cells}");
         assert!((found[1] - (1.0 - smoothed - lattice_error)).abs() < allowed, "{cells}");
@@ -86,11 +87,12 @@ fn operators_converge_with_second_order() {
     for (number, kind) in ["gradient", "divergence", "renormalised"].iter().enumerate() {
         let order = [0, 1, 2].map(|step| (errors[step][number] / errors[step + 1][number]).log2());
         println!("orders of {kind}: {order:.2?}");
-        // In theory, the order is 2. The next term of the series, (h k)^4 / 124, lowers the order of the coarsest pair
-        // by 0.08. The lattice error has the opposite sign and raises the order of the finest pair by 0.15.
+        // In theory, the order is 2. The next term of W^(k), (h k)^4 / 124, lowers the order between the two coarsest
+        // lattices by 0.08. The lattice error has the opposite sign and raises the order between the two finest
+        // lattices by 0.15.
         assert!(order.iter().all(|&order| order > 1.9), "{kind}");
     }
-    // Limit 0.02: renormalised gradients have no lattice error, and the next term lowers the order by 0.01.
+    // Limit 0.02 for the order: renormalised gradients have no lattice error; the next term lowers the order by 0.01.
     assert!(((errors[2][2] / errors[3][2]).log2() - 2.0).abs() < 0.02);
 }
 

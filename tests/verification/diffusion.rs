@@ -85,7 +85,7 @@ fn diffusion_of_antuono_does_not_change_a_linear_density() {
     let [whole, rest] = [DensityDiffusion::MolteniColagrossi, DensityDiffusion::Antuono]
         .map(|diffusion| largest_rate(diffusion, 20.0, 0.0));
     println!("linear density: rate {whole:.2e} with Molteni & Colagrossi, {rest:.2e} with Antuono et al.");
-    // Reached: 1.5e-6, the rounding of single precision summed over some 280 neighbours.
+    // Reached ratio: 1.5e-6, the rounding of single precision summed over some 280 neighbours.
     assert!(rest < 1e-5 * whole);
     let ripples = largest_rate(DensityDiffusion::Antuono, 0.0, 1.0);
     println!("ripples: rate {ripples:.2e} with Antuono et al.");

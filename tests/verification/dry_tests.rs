@@ -32,7 +32,7 @@ fn the_tilt_test_returns_the_given_friction_coefficient() {
         for unit in &summary.units {
             let found = unit.friction.unwrap();
             println!("{name}: unit {}: {found:.4} ({:+.2} %)", unit.unit, 100.0 * (found / friction - 1.0));
-            // Target: 0.5 %. The errors of the published runs are 1.8 and 1.9 %.
+            // Target: friction coefficient within 0.5 %. The errors of the published runs are 1.8 and 1.9 %.
             assert!((found / friction - 1.0).abs() < 0.005);
         }
     }
@@ -85,7 +85,7 @@ fn a_placed_layer_rests_and_can_be_run() {
         placed.contacts
     );
     assert_eq!(placed.units.len(), job.count());
-    // Limits: overlap 1 % of the height of a unit, kinetic energy 1e-6 of the potential energy.
+    // Limits: overlap below 1 % of the height of a unit, kinetic energy below 1e-6 of the potential energy.
     assert!(placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
     // The layer from the placement file stays at rest. While the tangential springs form again, units move by about the
     // overlap of the contacts, at most some thousandths of the height. The limit is half of the allowed overlap.

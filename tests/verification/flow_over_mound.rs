@@ -1,7 +1,7 @@
 //! Flow of the Fudo waves over the bare mound, compared with the inviscid flume model. The drag on the units is
 //! proportional to the square of the velocity at their height. In the flume of the experiment, friction slows only a
-//! layer of about sqrt(nu t) = 2 mm at the bed. In the particle domain, the numerical viscosity
-//! nu = alpha h c0 / 8 determines the thickness of this layer.
+//! layer of about sqrt(nu t) = 2 mm at the bed, with the viscosity nu of water and the duration t of the flow. In the
+//! particle domain, the numerical viscosity alpha h c0 / 8 determines the thickness of this layer.
 
 use serde_json::json;
 
@@ -91,8 +91,8 @@ fn drag_share(scheme: Scheme, height: f64, dp: f64) -> f64 {
 #[test]
 fn drag_over_the_mound_needs_free_slip() {
     let [no_slip, free_slip] = [NO_SLIP, FREE_SLIP].map(|scheme| drag_share(scheme, 0.045, 0.014));
-    // Reached: 0.61 with no slip, 0.91 with free slip. The drag on a unit is known to 10 %, so a run that loses 40 % of
-    // the drag is not useful.
+    // Reached drag shares: 0.61 with no slip, 0.91 with free slip. The drag on a unit is known to 10 %, so a run that
+    // loses 40 % of the drag is not useful.
     assert!(free_slip > 0.87 && free_slip < 1.03 && no_slip < 0.7);
 }
 

@@ -81,8 +81,8 @@ fn envelope(record: &FlumeRecord, period_s: f64) -> [f64; 2] {
 
 #[test]
 fn sponge_and_radiating_end_absorb_regular_waves() {
-    // Waves of k d = 1.1 with a sponge of two wave lengths and with the radiating end; long waves with the radiating
-    // end.
+    // The cases are waves of k d = 1.1 (wave number k, depth d) with a sponge of two wave lengths and with the
+    // radiating end, and long waves with the radiating end.
     for (period_s, sponge_lengths, most) in [(1.5, Some(2.0), 0.01), (1.5, None, 0.1), (4.0, None, 0.02)] {
         let parameters = RegularWave { height_m: 0.02, period_s, depth_m: DEPTH, gravity: GRAVITY };
         let wave = StreamFunctionWave::new(parameters, MeanFlow::NoTransport).unwrap();
@@ -101,8 +101,8 @@ fn sponge_and_radiating_end_absorb_regular_waves() {
             0.5 * (largest + smallest),
             100.0 * reflection
         );
-        // A radiating end reflects the share (1 - c/c_0) / (1 + c/c_0), with c_0 = sqrt(g d): 8 % for c/c_0 = 0.85. The
-        // sponge is designed for 0.25 %; the remaining 0.75 % allow for the error of the envelope.
+        // A radiating end reflects the share (1 - c/c_0) / (1 + c/c_0), with celerity c and c_0 = sqrt(g d): 8 % for
+        // c/c_0 = 0.85. The sponge is designed to reflect 0.25 %; the other 0.75 % allow for the error of the envelope.
         assert!(reflection < most);
         assert!((0.5 * (largest + smallest) / parameters.height_m - 1.0).abs() < 0.03);
     }
@@ -127,6 +127,6 @@ fn irregular_waves_enter_with_their_significant_height() {
     let mean = tail.iter().sum::<f64>() / tail.len() as f64;
     let variance = tail.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / tail.len() as f64;
     println!("H_s = {:.4} m, mean level {:+.5} m", 4.0 * variance.sqrt(), mean);
-    // Limit 6 %: the incoming sea is a superposition of linear waves, but the flume model is nonlinear.
+    // Limit 6 % for the significant height: the incoming waves are linear, but the flume model is nonlinear.
     assert!((4.0 * variance.sqrt() / 0.02 - 1.0).abs() < 0.06);
 }

@@ -35,7 +35,7 @@ fn surface(profile: &Profile, wave: &ThirdOrderSolitary, centre: f64, cell_m: f6
     (10..(10.0 * length) as usize - 10).map(|i| flume.surface_m(0.1 * i as f64)).collect()
 }
 
-/// Returns the order of convergence from runs on three grids, each with half the cell of the previous one.
+/// Returns the order of convergence from runs on three grids, each with half the cell length of the previous grid.
 fn order(runs: &[Vec<f64>; 3]) -> f64 {
     let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
     (difference(&runs[0], &runs[1]) / difference(&runs[1], &runs[2])).log2()

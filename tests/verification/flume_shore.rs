@@ -34,7 +34,7 @@ fn flume(profile: Profile, layers: usize, friction: Friction) -> LayeredFlume {
         gravity_m_s2: GRAVITY,
         layers,
         cell_m,
-        // Courant number 0.4 for the largest depth, including the highest hump.
+        // This gives a Courant number of 0.4 for the largest depth, including the highest hump.
         step_s: 0.4 * cell_m / (GRAVITY * 1.5f64).sqrt(),
         left_end: LeftEnd::Wall,
         right_end: RightEnd::Wall,
@@ -63,7 +63,8 @@ proptest! {
         let (centre, width) = (relative_position * length, 0.2 * length);
         let mut flume = flume(profile, layers, Friction::Manning { n_s_m13 });
         let hump = |x: f64| height * (-((x - centre) / width).powi(2)).exp();
-        // `froude` = -1 is a long wave to the left, u = - eta sqrt(g / d) with d = 1 m; 1 is a long wave to the right.
+        // `froude` = -1 is a long wave to the left, with the velocity u = - eta sqrt(g / d) at the elevation eta and
+        // the depth d = 1 m; 1 is a long wave to the right.
         let at_rest_at_walls = |x: f64| (std::f64::consts::PI * x / length).sin();
         flume.set_flow(hump, |x, _| froude * GRAVITY.sqrt() * hump(x) * at_rest_at_walls(x));
         let volume = flume.volume_m2();

@@ -91,8 +91,8 @@ fn files_of_three_programs_move_the_wavemaker_identically() {
         sources.map(|source| motion(&simulation(folder.path(), &json!({ "kind": "file", "source": source }))));
     let stroke = motions[0].iter().map(|row| row[0]).fold(0.0, f64::max);
     println!("stroke {stroke:.4} m");
-    // The full stroke is the volume of the wave divided by depth and width. This stroke is a third shorter, because the
-    // velocities are those at a fixed position.
+    // The full stroke of the water is the volume of the wave divided by depth and width. The stroke of this piston is a
+    // third shorter, because the files give the velocities at a fixed position.
     assert!(stroke > 0.2);
     for motion in &motions[1..] {
         let difference = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());

@@ -40,13 +40,13 @@ fn piston_rows_follow_regular_waves_without_drift() {
         let times = (0..=100).map(|i| piston.end_s() - PERIOD * f64::from(i) / 100.0);
         extremes(times.map(|t| piston.displacement_m(row, t)))
     };
-    // Linear theory: the amplitude of the displacement at z is a cosh k(z + d) / sinh kd.
+    // Linear theory: the displacement at z has the amplitude a cosh k(z + d) / sinh kd, with the wave amplitude a.
     let k = wave.wavenumber_per_m();
     for (row, &height) in piston.row_heights_m().iter().enumerate().filter(|(_, height)| **height < 0.36) {
         let [low, high] = displacement_range(row);
         let (theory, mean) = (wave.height_m * (k * height).cosh() / (k * DEPTH).sinh(), 0.5 * (low + high));
         println!("row at {height:.2} m: stroke {:.4} m, theory {theory:.4} m, mean {mean:+.4} m", high - low);
-        // Limit 5 %: the wave is nonlinear (H/d = 0.075), and the sponge reflects a little.
+        // Limit 5 % for the stroke: the wave is nonlinear (H/d = 0.075), and the sponge reflects a little.
         assert!(((high - low) / theory - 1.0).abs() < 0.05);
         // Limit 5 mm; reached: 0.7 mm. The return flow below the waves, g H^2 / (8 c d) = 1.5 mm/s on average, would
         // move the rows by 70 mm during the run, and by 10 mm within 6 s, the time constant of the drift removal.
@@ -70,8 +70,8 @@ fn irregular_waves_have_their_significant_height_and_seed() {
     };
     let (case, record) = run_wave(&sea(1), 70.0);
     println!("H_s = {:.4} m at 4 m", significant(&record));
-    // The evaluated 64 s are one full repetition of the sea. Limit 10 %: the shortest waves, which a cell of 0.05 m
-    // does not resolve, contribute 4 % of the height.
+    // The evaluated 64 s are one full repetition of the sea. Limit 10 % for the significant height: the shortest waves,
+    // which a cell of 0.05 m does not resolve, contribute 4 % of the height.
     assert!((significant(&record) / 0.03 - 1.0).abs() < 0.1);
     let (other, _) = run_wave(&sea(2), 1.0);
     assert_ne!(case.hash, other.hash);

@@ -53,8 +53,8 @@ pub fn transform(kernel: &Wendland, k: f64, f: impl Fn(f64) -> f64) -> f64 {
 
 /// Returns the error of the sum of f over a lattice of spacing 1 by Poisson's formula.
 pub fn aliasing(kernel: &Wendland, f: impl Fn(f64) -> f64) -> f64 {
-    // Transforms of kernels with two continuous derivatives fall with n^-6: terms beyond n = 20 are
-    // 4 pi / 3 / 20^3 / 6 = 1e-4 of the first terms.
+    // Transforms of kernels with two continuous derivatives fall with n^-6: the terms beyond n = 20 together are
+    // 4 pi / 3 / 20^3 / 6 = 1e-4 of the six first terms.
     let reach = 20_i32;
     let mut counts = vec![0_u32; (reach * reach + 1) as usize];
     for (i, j, k) in

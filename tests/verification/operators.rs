@@ -21,14 +21,14 @@ fn kernel_moments_on_a_lattice_have_the_error_of_theory() {
         let zeroth = lattice_sum(&kernel, w) - 1.0;
         let of_gradient = lattice_error_of_gradient(factor);
         let expected = aliasing(&kernel, |r| value(&kernel, r));
-        // By symmetry, the moment along one axis is a third of the trace: -G r^2 / 3.
+        // By symmetry, the moment along one axis is a third of the trace -G r^2.
         let expected_of_gradient = aliasing(&kernel, |r| -gradient_factor(&kernel, r) * r * r / 3.0);
         println!(
             "h = {factor:.3} dp: sum V W = 1 {zeroth:+.2e} (theory {expected:+.2e}), first moment of grad W = \
              1 {of_gradient:+.2e} (theory {expected_of_gradient:+.2e})"
         );
-        // Limit 3e-6: the kernel constants have rounding errors of 1e-7 (single precision), and `aliasing` omits 1e-4
-        // of an error of 1e-2.
+        // Limit 3e-6: the kernel constants have rounding errors of 1e-7 (single precision). The lattice error is up to
+        // 1e-2, and `aliasing` omits 1e-4 of it.
         assert!((zeroth - expected).abs() < 3e-6, "{factor}");
         assert!((of_gradient - expected_of_gradient).abs() < 3e-6, "{factor}");
         // Limit 1e-14: rounding; odd moments vanish by symmetry.
@@ -41,10 +41,10 @@ fn kernel_moments_on_a_lattice_have_the_error_of_theory() {
 }
 
 /// Theory for a jittered lattice with the variance s^2 = (jitter dp)^2 / 3 along each axis:
-/// - sum V W and the first moment of the gradient have the error V (f(0) - mean of f over the jitter), where f is the
-///   summand, because the distance of a particle to itself does not vary;
-/// - to first order the variance is V^2 s^2 sum |grad f|^2 over the neighbours, plus the variance from the particle's own
-///   jitter.
+/// - The distance of a particle to itself does not vary, so sum V W and the first moment of the gradient have the error
+///   V (f(0) - mean of f over the jitter), where f is the summand.
+/// - To first order, the variance of both is V^2 s^2 sum |grad f|^2 over the neighbours, plus the variance from the
+///   particle's own jitter.
 #[test]
 fn kernel_moments_on_a_jittered_lattice_scatter_as_in_theory() {
     let kernel = Wendland::new(USUAL);
@@ -73,7 +73,7 @@ fn kernel_moments_on_a_jittered_lattice_scatter_as_in_theory() {
         // Limit: a tenth of the scatter. To first order, a particle's jitter cancels in the mean if all its neighbours
         // are included, so only particles near the faces contribute.
         assert!((mean - expected).abs() < 0.1 * expected_deviation, "{name}");
-        // Limit 15 %: effects of second order in the jitter, and the finite sample.
+        // Limit 15 % for the scatter: effects of second order in the jitter, and the finite sample.
         assert!((deviation / expected_deviation - 1.0).abs() < 0.15, "{name}");
     };
     check("sum V W - 1", &zeroth, aliasing(&kernel, w), &w);
@@ -151,11 +151,12 @@ fn pressure_gradient_of_a_linear_field_has_the_lattice_error() {
     }
     println!("pressure gradient on a lattice: deviation {worst:.1e} from (1 {error:+.2e}) times the exact value");
     // Limit 2e-5 of the slope. The terms of 2 p_a sum V grad W cancel except for the rounding of some 280 terms,
-    // 6e-8 sqrt(280) = 1e-6 of 2 p / h. This term, 2 p / h = 8e4 Pa/m, is 22 times the slope.
+    // 6e-8 sqrt(280) = 1e-6 of 2 p / h. For the largest pressure p, 830 Pa, 2 p / h is 8e4 Pa/m, 22 times the slope.
     assert!(worst < 2e-5, "{worst}");
 }
 
-/// A constant pressure accelerates unevenly spaced particles: dv/dt = -2 p / rho grad C does not vanish with dp.
+/// A constant pressure accelerates unevenly spaced particles: dv/dt = -2 p / rho grad C, with the concentration
+/// C = sum V W, does not vanish with dp.
 #[test]
 fn constant_pressure_accelerates_jittered_particles() {
     let tait = ideal(DP, None).tait;
@@ -171,14 +172,14 @@ fn constant_pressure_accelerates_jittered_particles() {
         worst = worst.max((found - expected).length() * sorted.density[i] * DP / pressure);
     }
     println!("acceleration by a constant pressure: deviation {worst:.1e} p / (rho dp) from theory");
-    // Limit 2e-6: sums of some 280 terms of up to 0.02 p / dp in single precision.
+    // Limit 2e-6 for the deviation: sums of some 280 terms of up to 0.02 p / dp in single precision.
     assert!(worst < 2e-6, "{worst}");
 }
 
 #[test]
 fn density_rate_of_a_linear_velocity_has_the_lattice_error() {
     let error = lattice_error_of_gradient(USUAL);
-    // Rows of d v_i / d x_j [1/s].
+    // Rows of the velocity gradient d v_i / d x_j [1/s].
     let grad_v = [DVec3::new(3.0, 1.0, -2.0), DVec3::new(0.5, -1.0, 4.0), DVec3::new(2.0, 0.0, 2.0)];
     let flow = |p: DVec3| DVec3::new(1.0, -2.0, 0.5) + DVec3::new(grad_v[0].dot(p), grad_v[1].dot(p), grad_v[2].dot(p));
     let (water, rates) = rates_of_block(block(0.0, |_| RHO0, flow));

@@ -59,7 +59,7 @@ fn case(tank: &Tank) -> Value {
             "top_z_m": 1.5 * depth_m, "dp_m": tank.dp,
             "damping_zone": { "x_m": [tank.zone_from, tank.length] }
         },
-        // The usual value for waves (Altomare et al. 2017); runs with Tetrapods have 0.04.
+        // This viscosity is usual for waves (Altomare et al. 2017); runs with Tetrapods have 0.04.
         "numerics": { "viscosity_alpha": 0.01 },
         "fluid": { "sound_speed_factor": 10.0 },
         "wave": { "kind": "regular", "height_m": height_m, "period_s": period_s, "ramp_periods": 1.0 },
@@ -208,8 +208,8 @@ fn assert_ren_wave(dp: f64) {
     let tank = ren(dp);
     let results = run(&tank);
     report(&tank, &results);
-    // Reached at dp = 0.02 m, five particles in the height: 3.9 % too low, 0.05 rad early, 1.4 % reflected. 5 % is the
-    // allowed reflection of an absorber in a laboratory flume.
+    // Reached at dp = 0.02 m, five particles in the wave height: height 3.9 % too low, phase 0.05 rad early, reflection
+    // 1.4 %. A laboratory absorber may reflect up to 5 %.
     assert!((results.incident / tank.wave.height_m - 1.0).abs() < 0.1);
     assert!(results.phase.abs() < 0.1);
     assert!(results.reflection < 0.05);
@@ -244,8 +244,8 @@ fn piston_and_flap_move_by_second_order_theory() {
     let regular = json!({ "kind": "regular", "height_m": 0.1, "period_s": 1.2, "ramp_periods": 0.5 });
     let theory = RegularWave { height_m: 0.1, period_s: 1.2, depth_m: 0.4, gravity: GRAVITY };
     let (k, kd) = (theory.wavenumber_per_m(), theory.wavenumber_per_m() * 0.4);
-    // At a quarter of a period, the first-order displacement is half the stroke; the second-order displacement is zero
-    // with the velocity -2 omega X2.
+    // At a quarter of a period, the first-order displacement is half the stroke. The second-order displacement is zero;
+    // its velocity is -2 omega X2, with its amplitude X2.
     let time = 1.2 * 2.25;
     let m1 = 2.0 * ((2.0 * kd).cosh() - 1.0) / ((2.0 * kd).sinh() + 2.0 * kd);
     let second = 0.01 / (32.0 * 0.4) * (3.0 * kd.cosh() / kd.sinh().powi(3) - 2.0 / m1);

@@ -42,7 +42,7 @@ fn crests(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> [f64; 3] {
     let elevation = |t: &f64| record.elevation(GAUGE, *t);
     let passing = record.times_s().iter().copied().max_by(|a, b| elevation(a).total_cmp(&elevation(b))).unwrap();
     let incident = record.elevation(GAUGE, passing);
-    // From the gauge to the wall and back, then to the piston and back.
+    // The wave travels from the gauge to the wall and back, then to the piston and back.
     let reflected = passing + 2.0 * (TANK[1] - GAUGE) / celerity;
     let rereflected = reflected + 2.0 * (GAUGE - TANK[0]) / celerity;
     let (until, from) = (0.5 * (passing + reflected), reflected + 0.7 * (rereflected - reflected));
@@ -72,8 +72,8 @@ fn an_absorbing_multi_layer_piston_does_not_reflect_the_wave() {
     // Reached: the crest of the incident wave in the particles differs by 0.3 % from the flume model. Limit 8 %: the
     // reading may include the start of the reflected wave.
     assert!((first / flume - 1.0).abs() < 0.08);
-    // Limit 10 % of the incident crest after reflection by wall and piston. Reached: 5.2 %, a fifth of a particle
-    // spacing.
+    // Limit for the wave after reflection by wall and piston: 10 % of the incident crest. Reached: 5.2 %, which is a
+    // fifth of a particle spacing.
     assert!((-first..0.1 * first).contains(&rereflected));
 }
 

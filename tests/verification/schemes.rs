@@ -9,8 +9,8 @@ use super::{
 
 /// Lists `numerics` settings with free slip, the default.
 fn free_slip() -> Vec<Value> {
-    // A thousand times the viscosity of water. `artificial` is equivalent to some 3e-2 m2/s in the dam break and 6e-3
-    // m2/s in still water.
+    // This is a thousand times the viscosity of water. `artificial` is equivalent to some 3e-2 m2/s in the dam break
+    // and 6e-3 m2/s in still water.
     let viscous = |name: &str| json!({ "viscosity": name, "kinematic_viscosity_m2_s": 1e-3 });
     vec![
         json!({}),
@@ -19,7 +19,7 @@ fn free_slip() -> Vec<Value> {
         viscous("laminar"),
         viscous("laminar_monaghan_gingold"),
         viscous("laminar_sps"),
-        // The viscosity of water with sub-particle-scale turbulence.
+        // This setting has the viscosity of water and sub-particle-scale turbulence.
         json!({ "viscosity": "laminar_sps" }),
         json!({ "shifting_coefficient": 2.0 }),
     ]
@@ -50,7 +50,7 @@ fn tips(schemes: &[Value]) -> Vec<f64> {
     let tip = |numerics: &Value| {
         let [tip, gain, start] = tip_and_gain(numerics);
         println!("{numerics}: tip {tip:.5} m, energy gain {gain:.2e} of {start:.2e} J");
-        // The pressure wave after the release returns 6e-4 of the energy (conservation.rs).
+        // The pressure wave after the release may return up to 6e-4 of the energy (limit in conservation.rs).
         assert!(gain < 1e-3 * start, "{numerics}");
         tip
     };
@@ -62,7 +62,7 @@ fn dam_break_tips_agree_for_all_schemes() {
     let (free_slip, other_slip) = (tips(&free_slip()), tips(&other_slip()));
     let spread =
         |tips: &[f64]| tips.iter().copied().fold(f64::MIN, f64::max) - tips.iter().copied().fold(f64::MAX, f64::min);
-    // Limit 0.1 m: two particle spacings; the tip is a sheet one particle thick.
+    // Limit 0.1 m for the spread of the tips: two particle spacings. The tip is a sheet one particle thick.
     assert!(spread(&free_slip) < 0.1 && spread(&other_slip) < 0.1, "{free_slip:?} {other_slip:?}");
     // All schemes give different tips, so no setting is ignored.
     for (k, tip) in free_slip.iter().enumerate() {

@@ -9,19 +9,19 @@ use super::tanks::{run_until, simulation};
 const DEPTH: f64 = 0.5;
 /// First position at which the wave is measured [m], two depths from the wavemaker of the particle domain.
 const FIRST: f64 = 14.0;
-/// Half width w of the hat function that averages the surface [m]. The averaging lowers a crest of H/d = 0.1 by
-/// (w^2/12) eta''/eta = 0.3 % at both positions.
+/// Half width w of the hat function that averages the surface elevation eta [m]. The averaging lowers a crest of
+/// H/d = 0.1 by (w^2/12) eta''/eta = 0.3 % at both positions.
 const HAT: f64 = 0.25;
 
 /// A wave and the settings of the particle scheme.
 struct Wave {
-    /// Wave height over depth, H/d [-].
+    /// Wave height divided by depth, H/d [-].
     height: f64,
     /// Distance between the two measurements, in depths [-].
     travel: f64,
     dp: f64,
     alpha: f64,
-    /// Speed of sound over sqrt(g d) [-].
+    /// Speed of sound divided by sqrt(g d) [-].
     sound: f64,
     slip: &'static str,
     /// True for a slice ten particles wide, false for a two-dimensional flume.

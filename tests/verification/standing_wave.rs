@@ -31,8 +31,8 @@ fn frequency() -> f64 {
     (GRAVITY * K * (K * DEPTH).tanh()).sqrt()
 }
 
-/// Returns decay and period by theory. With the growth rate n and m^2 = k^2 + n / nu, the linear Navier-Stokes
-/// equations over a free-slip bed give
+/// Returns decay and period by theory. With the growth rate n, m^2 = k^2 + n / nu and the frequency sigma without
+/// viscosity, the linear Navier-Stokes equations over a free-slip bed give
 ///
 /// (n + 2 nu k^2)^2 + sigma^2 = 4 nu^2 k^3 m tanh(kd) / tanh(md),
 ///
@@ -99,11 +99,11 @@ fn errors(particles: f64, viscosity: Viscosity) -> [f64; 2] {
 #[test]
 fn a_standing_wave_has_the_period_and_decay_of_theory() {
     let [period, decay] = errors(14.0, Viscosity::MonaghanGingold { nu: NU });
-    // Limit 1 %: the particle spacing is a fourteenth of the depth.
+    // Limit 1 % for the period: the particle spacing is a fourteenth of the depth.
     assert!(period.abs() < 0.01, "{period}");
-    // Limit 10 %: particles at the surface lack half of their neighbours, so friction is missing in a layer of about dp
-    // / 2. The power 2 mu S : S falls with e^(2kz), so the share k dp = 11 % is missing. Particle noise adds some
-    // dissipation.
+    // Limit 10 % for the decay: particles at the surface lack half of their neighbours, so friction is missing in a
+    // layer of about dp / 2. With the height z, the power 2 mu S : S falls as e^(2kz), so the share k dp = 11 % is
+    // missing. Particle noise adds some dissipation.
     assert!(decay.abs() < 0.1, "{decay}");
 }
 
@@ -111,7 +111,7 @@ fn a_standing_wave_has_the_period_and_decay_of_theory() {
 fn a_standing_wave_decays_too_slowly_with_lo_and_shao() {
     let [_, decay] = errors(10.0, Viscosity::Laminar { nu: NU, turbulence: None });
     // In irrotational flow the power mu grad v : grad v is half of 2 mu S : S (Colagrossi et al. 2011). Friction is
-    // also missing at the surface, so the decay is about a third of the theoretical decay. The limits are 40 to 80 %
-    // too slow.
+    // also missing at the surface, so the decay is about a third of the theoretical decay. The test allows decays that
+    // are 40 to 80 % slower than in theory.
     assert!((-0.8..-0.4).contains(&decay), "{decay}");
 }

@@ -84,8 +84,9 @@ fn a_flat_tank_stays_hydrostatic() {
         kinetic_energy.early,
         kinetic_energy.late
     );
-    // Limit 1 %: a seventh of the hydrostatic pressure rise over a particle spacing. The compression adds 0.2 % (g d /
-    // 2 c0^2 with c0 = 15 sqrt(g d)). Most of the remaining error is due to the truncated kernel at the surface.
+    // Limit 1 % for the pressure error: a seventh of the hydrostatic pressure rise over a particle spacing. Compression
+    // adds 0.2 %, from g d / (2 c0^2) with c0 = 15 sqrt(g d). Most of the remaining error is due to the truncated
+    // kernel at the surface.
     assert!(largest < 0.01);
     // The start is in equilibrium except for the truncated kernel at the surface; the resulting motion decays.
     assert!(kinetic_energy.late < 0.5 * kinetic_energy.early);
@@ -112,8 +113,8 @@ fn a_rising_gauge_reads_the_pressure_at_its_height() {
     assert!(between(0.31, 0.4).all(|(_, place, _)| (place.z - 0.25).abs() < 1e-12 && (place.x - 0.14).abs() < 1e-12));
     let largest = readings.iter().map(|(_, _, error)| error.abs()).fold(0.0, f64::max);
     println!("rising gauge: largest pressure error {:.2} % of the pressure on the bed", 100.0 * largest);
-    // Limit 3 %: half of the hydrostatic pressure rise over a particle spacing. The water settles in the first tenths
-    // of a second.
+    // Limit 3 % for the pressure error: half of the hydrostatic pressure rise over a particle spacing. The water
+    // settles in the first tenths of a second.
     assert!(largest < 0.03);
 }
 
@@ -156,9 +157,9 @@ fn assert_nothing_moves_over_the_mound(x: [f64; 2], end: f64) {
         kinetic_energy.early,
         kinetic_energy.late
     );
-    // Limit 0.1 mm: a thousandth of the damage distance. The weight of a unit presses it 0.03 mm into the bed.
+    // Limit 0.1 mm: about a thousandth of the damage distance. The weight of a unit presses it 0.03 mm into the bed.
     assert!(furthest < 1e-4);
-    // Limit 1 %: a tenth of the hydrostatic pressure rise over a particle spacing.
+    // Limit 1 % for the pressure error: a tenth of the hydrostatic pressure rise over a particle spacing.
     assert!(largest < 0.01);
     assert!(kinetic_energy.late < 0.5 * kinetic_energy.early);
     assert!((flume.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);

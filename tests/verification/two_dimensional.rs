@@ -78,6 +78,7 @@ fn still_water_stays_still_on_a_beach() {
         }
     });
     println!("fastest {fastest:.3} m/s");
-    // Limit 0.25 m/s: a quarter of sqrt(g d) for five particles in the depth. Attractive walls would cause 1.6 m/s.
+    // Limit for the speed: 0.25 m/s, a quarter of sqrt(g d) for five particles in the depth. Walls that attract the
+    // water would cause 1.6 m/s.
     assert!(fastest < 0.25);
 }

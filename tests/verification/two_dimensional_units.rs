@@ -57,9 +57,9 @@ fn a_box_floats_in_a_layer_and_stays_in_its_plane() {
         100.0 * (force / count / weight - 1.0),
         1e3 * heave
     );
-    // Limit 1 %: the mean over one second includes a small oscillation.
+    // Limit 1 % for the force: the mean over one second includes a small oscillation.
     assert!((force / count / weight - 1.0).abs() < 0.01);
-    // A quarter of a particle spacing is 6 % of the draught.
+    // Limit for the heave: a quarter of a particle spacing, which is 6 % of the draught.
     assert!(heave.abs() < 0.25 * DP && roll.abs() < 2e-3);
 }
 

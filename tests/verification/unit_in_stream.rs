@@ -26,8 +26,8 @@ const C0: f64 = 10.0;
 /// Pressure of the water at rest [Pa], equal to 0.1 m of water. The pressure drop in the wake is smaller.
 const PRESSURE: f64 = 1000.0;
 
-/// Added mass over the mass of the displaced water [-], by finite elements (tools/potential-flow/tetrapod). Element
-/// sizes of 0.06, 0.03 and 0.02 unit heights at the unit give 0.583, 0.612 and 0.618 respectively. 0.622 is the
+/// Added mass divided by the mass of the displaced water [-], by finite elements (tools/potential-flow/tetrapod).
+/// Element sizes of 0.06, 0.03 and 0.02 unit heights at the unit give 0.583, 0.612 and 0.618 respectively. 0.622 is the
 /// extrapolation with the square of the element size.
 const BY_POTENTIAL_FLOW: f64 = 0.622;
 
@@ -119,8 +119,9 @@ impl Stream {
     }
 }
 
-/// Returns the added mass without viscosity over the mass of the displaced water [-]: when sound has just crossed the
-/// box, and when a layer of slow water has grown along the unit. The ratio does not depend on the acceleration.
+/// Returns the added mass without viscosity, divided by the mass of the displaced water [-], at two times: when sound
+/// has just crossed the box, and when a layer of slow water has grown along the unit. The ratio does not depend on the
+/// acceleration.
 fn added_mass(particles: f64, boundary: BoundaryCondition) -> [f64; 2] {
     let mut stream = Stream::new(particles, boundary, 0.0, Position::Middle);
     stream.settle(0.2);
@@ -133,8 +134,8 @@ fn added_mass(particles: f64, boundary: BoundaryCondition) -> [f64; 2] {
     shares
 }
 
-/// Returns the force in the steady stream over rho / 2 U^2 V^(2/3) [-]. It is the mean while the water moves by three
-/// unit heights.
+/// Returns the mean force while the steady stream moves by three unit heights, divided by rho / 2 U^2 V^(2/3) [-], with
+/// the speed U of the stream and the volume V of the unit.
 fn steady_force(particles: f64, boundary: BoundaryCondition, alpha: f64, position: Position) -> DVec3 {
     force_over_pressure(
         Stream::new(particles, boundary, alpha, position),
@@ -156,8 +157,8 @@ fn force_over_pressure(mut stream: Stream, name: &str) -> DVec3 {
 fn added_mass_of_a_tetrapod_agrees_with_potential_flow() {
     let [first, later] = added_mass(8.0, ModifiedDynamic).map(|share| share / BY_POTENTIAL_FLOW);
     // Reached: 1.2 times the value of potential flow, with 8 and with 11 particles in the height of the unit, because
-    // the particles of the unit slow down the adjacent water.
-    // Extrapolation with the square root of time to zero thickness of this slow layer gives about 1.
+    // the particles of the unit slow down the adjacent water. Extrapolation with the square root of time to zero
+    // thickness of this slow layer gives about 1.
     assert!((1.0..1.25).contains(&first) && later > first, "{first} {later}");
 }
 
@@ -190,7 +191,7 @@ fn drag_falls_with_resolution_and_lower_viscosity() {
 #[ignore = "16 minutes on one core: \
     cargo test --release --test verification -- --ignored --nocapture on_the_bed_drag_falls"]
 fn on_the_bed_drag_falls_and_lift_grows_with_resolution() {
-    // Particle spacings of 14, 9 and 7 mm for a unit of 77 mm.
+    // The particle spacings are 14, 9 and 7 mm for a unit of 77 mm.
     for position in [Position::OneLegForward, Position::TwoLegsForward] {
         let results_for = |particles| steady_force(particles, ModifiedDynamic, 0.05, position);
         let [coarse, _, fine] = [5.5, 8.5, 11.0].map(results_for);
@@ -198,7 +199,7 @@ fn on_the_bed_drag_falls_and_lift_grows_with_resolution() {
     }
 }
 
-/// Compares the drag of units with and without free slip on their surface at a quarter of the viscosity of the Fudo runs.
+/// Compares the drag with and without free slip on the units at a quarter of the viscosity of the Fudo runs.
 #[test]
 #[ignore = "7 minutes on one core: \
     cargo test --release --test verification -- --ignored --nocapture free_slip_on_the_unit_lowers_the_drag"]

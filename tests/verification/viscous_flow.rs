@@ -45,7 +45,7 @@ fn monaghan_gingold_stress_resists_compression_and_expansion_and_ignores_rotatio
     let stress = |v_dot_r: f64| monaghan_gingold_stress(10.0 * nu, approach_rate(h, v_dot_r, r2), rho_a, rho_b);
     // Viscous stress of Monaghan & Gingold in D = 3 dimensions:
     // -rho_a rho_b 4 (D + 2) nu / (rho_a + rho_b) (v . r) / (r^2 + 0.01 h^2), positive when the particles approach.
-    // `exact` is its value for v . r = -1e-3 m2/s. Limit 1e-6: single precision.
+    // `exact` is its value for v . r = -1e-3 m2/s. Limit 1e-6 for the stress: single precision.
     let exact = rho_a * rho_b * 20.0 * 0.01 / (rho_a + rho_b) * 1e-3 / (r2 + 0.01 * 0.02 * 0.02);
     assert!((stress(-1e-3) / exact - 1.0).abs() < 1e-6 && (stress(1e-3) / exact + 1.0).abs() < 1e-6);
     assert_eq!(stress(0.0), 0.0);
@@ -58,7 +58,7 @@ fn duct(x: f64, z: f64) -> f64 {
         let k = f64::from(2 * n + 1) * PI;
         4.0 / k.powi(3) * (1.0 - ((k * (z - 0.5)).cosh() / (0.5 * k).cosh())) * (k * x).sin()
     };
-    // cosh / cosh is at most 1, so the terms fall with k^-3 and 40 are enough.
+    // The ratio of both cosh is at most 1, so the terms fall with k^-3, and 40 terms are enough.
     (0..40).map(term).sum()
 }
 
@@ -69,8 +69,8 @@ fn duct_series_equals_published_values() {
     assert!(duct(0.5, 0.0).abs() < 1e-12 && duct(0.0, 0.3).abs() < 1e-12);
 }
 
-/// Returns the largest velocity error in a duct with a number of particles per side, over the velocity in the middle
-/// [-].
+/// Returns the largest velocity error in a duct with a number of particles per side, divided by the velocity in the
+/// middle [-].
 fn error_in_the_duct(particles: f64, form: fn(f64) -> Viscosity) -> f64 {
     let (dp, nu, fastest) = (SIDE / particles, 0.1, 1.0);
     let force = fastest * nu / duct(0.5, 0.5);
@@ -98,7 +98,7 @@ fn error_in_the_duct(particles: f64, form: fn(f64) -> Viscosity) -> f64 {
 
 #[test]
 fn duct_flow_with_lo_and_shao_equals_the_exact_solution() {
-    // Limit 2 %: the particle spacing is a twentieth of the side.
+    // Limit 2 % for the velocity error: the particle spacing is a twentieth of the side.
     assert!(error_in_the_duct(20.0, lo_shao) < 0.02);
 }
 
@@ -154,7 +154,7 @@ impl Vortex {
         water.velocity.iter().zip(&water.mass).map(|(v, m)| 0.5 * m * v.length_squared()).sum()
     }
 
-    /// Returns the power of viscosity at the start over the theoretical power, minus 1 [-].
+    /// Returns the power of viscosity at the start, divided by the theoretical power, minus 1 [-].
     fn excess_of_power(mut self) -> f64 {
         let exact = self.rate * self.energy();
         let mut powers = Powers::default();
@@ -162,8 +162,8 @@ impl Vortex {
         -powers.viscosity / exact - 1.0
     }
 
-    /// Returns the decay rate of the energy over the theoretical rate, minus 1 [-]. The run of 2 s reduces the energy
-    /// to about e^-0.8 of its initial value.
+    /// Returns the decay rate of the energy, divided by the theoretical rate, minus 1 [-]. The run of 2 s reduces the
+    /// energy to about e^-0.8 of its initial value.
     fn excess_of_decay(mut self) -> f64 {
         let (start, mut time) = (self.energy(), 0.0);
         while time < 2.0 {
@@ -201,10 +201,10 @@ fn power_of_viscosity_in_a_taylor_green_vortex_agrees_with_theory() {
     for (form, name) in [(lo_shao as fn(f64) -> _, "Lo & Shao"), (monaghan_gingold, "Monaghan & Gingold")] {
         let excess = Vortex::new(40.0, form, Start::Lattice).excess_of_power();
         println!("Taylor-Green, {name}: power of viscosity at the start {:+.2} %", 100.0 * excess);
-        // Limit 2 %: without walls the lattice sum of nu laplace v has errors of -0.3 % (Lo & Shao) and +0.9 %
-        // (Monaghan & Gingold). One part of the error falls with (kh)^2; the other part, +0.2 and +1.1 %, depends only
-        // on h / dp. The wall velocities are interpolated over the kernel and add 0.7 %, or 2.1 % with half as many
-        // particles per side.
+        // Limit 2 % for the power: without walls the lattice sum of nu laplace v has errors of -0.3 % (Lo & Shao) and
+        // +0.9 % (Monaghan & Gingold). One part of the error falls with (kh)^2; the other part, +0.2 and +1.1 %,
+        // depends only on h / dp. The wall velocities are interpolated over the kernel and add 0.7 %, or 2.1 % with
+        // half as many particles per side.
         assert!(excess.abs() < 0.02, "{name}: {excess}");
     }
 }
@@ -213,14 +213,14 @@ fn power_of_viscosity_in_a_taylor_green_vortex_agrees_with_theory() {
 fn a_taylor_green_vortex_decays_at_the_rate_of_theory() {
     let excess = Vortex::new(20.0, monaghan_gingold, Start::Settled).excess_of_decay();
     println!("Taylor-Green, Monaghan & Gingold, 20 particles per side: decay rate {:+.1} %", 100.0 * excess);
-    // Limit 8 %. The viscosity sum and the walls cause 1.4 % (test above, settled particles). The strain of the
-    // vortex pushes particles together and sideways. Viscosity dissipates this noise (4 %), and the pressure
-    // response to the noise takes 1 %. The total falls with dp to the power 0.8: over the first second it is 5.7
-    // and 4.2 % with 20 and 30 particles per side. If the particles start on a lattice, the vortex decays 23 and 21
-    // % too fast with 20 and 40 particles per side. The strain deforms the lattice, which collapses suddenly
-    // between 0.3 and 0.6 s. Meanwhile viscosity dissipates twice the theoretical power. Density diffusion of
-    // Antuono et al. (2010) or a velocity correction for the shifting (Lind et al. 2012) changes the decay error of
-    // the lattice start by at most 2 %. Three times the shifting, with the largest speed instead of the local
+    // Limit 8 % for the decay rate. The viscosity sum and the walls cause 1.4 %, which is the excess of the power with
+    // settled particles. The strain of the vortex pushes particles together and sideways. Viscosity dissipates this
+    // noise (4 %), and the pressure response to the noise takes 1 %. The total falls with dp to the power 0.8: over the
+    // first second it is 5.7 and 4.2 % with 20 and 30 particles per side. If the particles start on a lattice, the
+    // vortex decays 23 and 21 % too fast with 20 and 40 particles per side. The strain deforms the lattice, which
+    // collapses suddenly between 0.3 and 0.6 s. Meanwhile viscosity dissipates twice the theoretical power. Density
+    // diffusion of Antuono et al. (2010) or a velocity correction for the shifting (Lind et al. 2012) changes the decay
+    // error of the lattice start by at most 2 %. Three times the shifting, with the largest speed instead of the local
     // speed, halves this error.
     assert!(excess.abs() < 0.08, "{excess}");
 }

@@ -110,13 +110,13 @@ fn fudo_waves_have_the_crests_velocities_and_strokes_of_another_model() {
             let (crest, time) = record.crest(gauge);
             let error = crest / crest_m - 1.0;
             println!("  x = {:5.1} m: crest {:.5} m at {time:.3} s, {:+.2} %", GAUGES_X_M[gauge], crest, 100.0 * error);
-            // Limit 2 %: the expected values come from another layered calculation and are rounded to 0.1 mm.
+            // Limit 2 % for the crests: the expected crests are from another calculation and are rounded to 0.1 mm.
             assert!(error.abs() < 0.02, "x = {}: {error}", GAUGES_X_M[gauge]);
         }
         let (velocity, stroke) = (largest_velocity(&record, 33.0), stroke(&record, 33.0));
         println!("  u at 33 m {velocity:.4} m/s, stroke {stroke:.4} m");
-        // Limits 3 % for the velocity and 4 % for the stroke, for the same reason; the expected stroke has only two
-        // digits.
+        // Limits 3 % for the velocity and 4 % for the stroke, because the expected values come from another
+        // calculation; the expected stroke has only two digits.
         assert!((velocity / expected.velocity_m_s - 1.0).abs() < 0.03);
         assert!((stroke / expected.stroke_m - 1.0).abs() < 0.04);
     }
@@ -133,7 +133,7 @@ fn finer_cells_and_more_layers_change_the_crests_little() {
         for (gauge, x) in GAUGES_X_M.iter().enumerate() {
             let change = coarse.crest(gauge).0 / other.crest(gauge).0 - 1.0;
             println!("  x = {x:5.1} m: {:+.2} %", 100.0 * change);
-            // Limit 2 %: the 6.4 cm wave is close to breaking at 39 m, where its crest is sharpest.
+            // Limit 2 % for the crests: the 6.4 cm wave is close to breaking at 39 m, where its crest is sharpest.
             assert!(change.abs() < 0.02);
         }
     }
@@ -148,7 +148,7 @@ fn waves_over_the_mound_agree_on_two_grids() {
         let crests = [coarse.crest(7).0, fine.crest(7).0];
         let speeds = [largest_velocity(&coarse, 39.0), largest_velocity(&fine, 39.0)];
         println!("H = {} m: crests over the mound {crests:.4?} m, u {speeds:.3?} m/s", expected.height_m);
-        // Limit 5 %: the flanks of the mound are two cells long on the coarse grid.
+        // Limit 5 % for crests and velocities: the flanks of the mound are two cells long on the coarse grid.
         assert!((crests[0] / crests[1] - 1.0).abs() < 0.05 && (speeds[0] / speeds[1] - 1.0).abs() < 0.05);
         // The mound reflects and shoals the wave only a little, so the crest level is near the level without a mound.
         assert!((crests[1] / expected.crests_m[7] - 1.0).abs() < 0.2);
@@ -167,7 +167,7 @@ fn piston_near_the_mound_has_similar_strokes_over_the_depth() {
     println!("80 rows from t = {start:.2} s: {:.2} s", clock.elapsed().as_secs_f64());
     let strokes: Vec<f64> = [0, 20, 79].iter().map(|&row| largest_displacement(&piston, row)).collect();
     println!("strokes at the bed, in the water, above the water {strokes:.4?} m");
-    // Limit 10 %: the velocity of a long wave varies by a few per cent over the depth, and so do the strokes.
+    // Limit 10 % for the strokes: they differ like the velocity of a long wave, by a few per cent over the depth.
     assert!(strokes.iter().all(|stroke| (stroke / strokes[1] - 1.0).abs() < 0.1));
     let fixed_point_stroke: f64 = (0..1400)
         .map(|i| 0.02 * f64::from(i))

@@ -8,7 +8,7 @@ use super::tanks::{GRAVITY, RHO0, run_until, simulation};
 
 const DEPTH: f64 = 0.5;
 
-/// Ends of the particle domain [m]; its walls are 0.35 m from the wedge, seven tenths of the depth.
+/// Ends of the particle domain [m]; its walls are 0.35 m from the wedge, which is 0.7 of the water depth.
 const TANK: [f64; 2] = [0.5, 1.7];
 
 /// Returns the case of the tank with a boundary condition, particle spacing [m] and duration [s].
@@ -82,11 +82,12 @@ fn errors_of(boundary: &str, dp: f64, duration: f64) -> Errors {
 #[test]
 fn water_over_a_wedge_stays_still() {
     let errors_found = errors_of("mdbc", 0.02, 2.0);
-    // Limit 2 %: half of the hydrostatic pressure rise over a particle spacing; after five seconds the error is half as
-    // large. With dp = 0.025 m, ten particles in the height of the wedge, the error at the toes is 3 %. If the
-    // boundary particles have too much volume at the apex and too little at the toes, the errors there are -7 and +6 %.
+    // Limit 2 % for the pressure error: half of the hydrostatic pressure rise over a particle spacing; after five
+    // seconds the error is half as large. With dp = 0.025 m, ten particles in the height of the wedge, the error at the
+    // toes is 3 %. If the boundary particles have too much volume at the apex and too little at the toes, the errors
+    // there are -7 and +6 %.
     assert!(errors_found.pressure < 0.02, "{errors_found:?}");
-    // Limit 0.5 %: the target for five seconds.
+    // Limit 0.5 % of sqrt(g d) for the velocity: the target for runs of five seconds.
     assert!(errors_found.velocity < 0.005, "{errors_found:?}");
 }
 
@@ -97,7 +98,7 @@ fn water_over_a_wedge_stays_still_for_five_seconds() {
     let modified = errors_of("mdbc", 0.02, 5.0);
     // Printed for comparison only.
     errors_of("dbc", 0.02, 5.0);
-    // Limit 1 %: a quarter of the hydrostatic pressure rise over a particle spacing. Limit 0.5 % of
-    // sqrt(g d): with c0 = 15 sqrt(g d), a Mach number of 3e-4.
+    // Limit 1 % for the pressure: a quarter of the hydrostatic pressure rise over a particle spacing. Limit 0.5 % of
+    // sqrt(g d) for the velocity: a Mach number of 3e-4, because c0 = 15 sqrt(g d).
     assert!(modified.pressure < 0.01 && modified.velocity < 0.005, "{modified:?}");
 }

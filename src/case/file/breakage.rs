@@ -9,7 +9,7 @@ use super::{Joints, StrengthFile};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BreakageFile {
-    /// Length scale: prototype length over length in the case [-]. Velocities and times grow with the square root of
+    /// Length scale: prototype length / length in the case [-]. Velocities and times grow with the square root of
     /// this scale, masses with its cube (Froude scaling). 1 keeps the size of the units.
     #[serde(default = "one")]
     pub scale: f64,
@@ -89,11 +89,12 @@ pub struct ImpactSelectionFile {
     /// Quantity by which the impacts are ranked.
     #[serde(default)]
     pub by: ImpactMeasure,
-    /// Largest number of impacts that are re-run, the hardest first. Without this key, all recorded impacts are re-run.
-    /// Without the whole entry `select`, the 3 hardest impacts are re-run.
+    /// Largest number of impacts that are re-run, the hardest first. Default: all recorded impacts; 3 if the case has
+    /// no entry `select`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst: Option<usize>,
-    /// Smallest value of the quantity `by` at the scale of the case: force [N], velocity [m/s] or energy [J].
+    /// Smallest value of the quantity `by` for which an impact is re-run, at the scale of the case: force [N], velocity
+    /// [m/s] or energy [J].
     #[serde(default)]
     pub at_least: f64,
 }

@@ -15,8 +15,8 @@ pub struct DomainFile {
     pub width_m: Option<f64>,
     /// Boundaries at the two sides of the flume.
     pub sides: Sides,
-    /// Level of the top of the walls [m]. Water may splash above the walls by as much as the walls rise above the
-    /// lowest ground. If a particle rises higher, the run stops with an error.
+    /// Level of the top of the walls [m]. The space above the walls for splashing water is as high as the walls are
+    /// above the lowest ground. If a particle rises higher, the run stops with an error.
     pub top_z_m: f64,
     /// Particle spacing dp [m].
     pub dp_m: f64,
@@ -28,7 +28,7 @@ pub struct DomainFile {
     #[serde(default)]
     pub start_s: Option<f64>,
     /// The particle simulation starts when the depth-averaged velocity of the water at the wavemaker first reaches this
-    /// value times its maximum [-]. The velocity is taken from the flume model or from the wave files.
+    /// fraction of its maximum [-]. The velocity is taken from the flume model or from the wave files.
     #[serde(default = "default_start_share")]
     pub start_at_share: f64,
     /// Damping zone: slows the water down in front of the shoreward end, so that the end reflects no waves.

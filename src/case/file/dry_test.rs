@@ -153,7 +153,7 @@ pub struct DryOutputFile {
     pub units_interval_s: f64,
     /// Interval between rows of the tables with unit motion and energy [s].
     pub series_interval_s: f64,
-    /// Interval between checkpoints in simulated time [s]; 0: a checkpoint is written only if the user stops the run.
+    /// Simulated time between checkpoints [s]; 0: a checkpoint is written only if the user stops the run.
     pub checkpoint_interval_s: f64,
 }
 

@@ -56,16 +56,17 @@ pub struct MethodFile {
     /// Kind of the joints between tetrahedra before the material cracks.
     #[serde(default)]
     pub joints: Joints,
-    /// Joint penalty [-]: stiffness p_0 of the joints over Young's modulus. Default: 50 for `intrinsic`, 10 for `tied`.
+    /// Joint penalty [-]: stiffness p_0 of the joints / Young's modulus. Default: 50 for `intrinsic`, 10 for `tied`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_penalty: Option<f64>,
-    /// Rule that sets the softening range: the opening after the peak stress over which the stress decreases to zero.
+    /// Rule that sets the softening range: the increase of the opening during which the stress decreases from its peak
+    /// to zero.
     #[serde(default)]
     pub softening: Softening,
-    /// Contact penalty [-]: stiffness p of the contacts over Young's modulus.
+    /// Contact penalty [-]: stiffness p of the contacts / Young's modulus.
     #[serde(default = "one")]
     pub contact_penalty: f64,
-    /// Time step over the longest stable time step [-].
+    /// Time step / longest stable time step [-].
     #[serde(default = "default_step_share")]
     pub step_share: f64,
     /// Time step [s]. A value above the longest stable time step is refused. By default, `step_share` sets the time
@@ -81,24 +82,24 @@ pub enum Joints {
     /// Elastic joints between all tetrahedra from the start of the run (Guo, Latham and Xiang 2015).
     #[default]
     Intrinsic,
-    /// Tetrahedra share their nodes until the stress reaches the strength. The joints then add no compliance, and the
-    /// time step is longer. Elements must be small compared with the fracture process zone; otherwise the computed
-    /// strength is too high (docs/validation/fracture.md).
+    /// Tetrahedra share their nodes until the stress reaches the strength. The joints do not soften the intact body,
+    /// and the time step is longer than with `intrinsic`. Elements must be small compared with the fracture process
+    /// zone; otherwise the computed strength is too high (docs/validation/fracture.md).
     Tied,
     /// No body cracks: an elastic run, for comparison.
     Unbreakable,
 }
 
-/// Rule that sets the softening range of a joint: the opening after the peak stress over which the stress decreases to
-/// zero.
+/// Rule that sets the softening range of a joint: the increase of the opening during which the stress decreases from
+/// its peak to zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Softening {
-    /// The range for which the area under the curve of stress against opening equals the fracture energy G_f.
+    /// The range for which the joint dissipates the fracture energy G_f: the area under the stress-opening curve.
     #[default]
     Exact,
-    /// The range max(2 delta_p, 3 G_f / f_t) of the published programs, with the opening delta_p at the peak stress and
-    /// the tensile strength f_t. The joint then dissipates 1.16 G_f.
+    /// The range max(2 delta_p, 3 G_f / f_t) of the published programs, with the opening delta_p at the peak stress,
+    /// the fracture energy G_f and the tensile strength f_t. The joint then dissipates 1.16 G_f.
     Published,
 }
 

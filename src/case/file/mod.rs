@@ -98,7 +98,7 @@ pub struct CaseFile {
     /// Output files and their intervals.
     #[serde(default)]
     pub output: OutputFile,
-    /// Criteria that end the run: its duration, and the rest criterion for the units.
+    /// Criteria that end the run: its duration, and rest of the units.
     pub stop: StopFile,
 }
 
@@ -106,13 +106,13 @@ pub struct CaseFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FluidFile {
-    /// Reference density [kg/m3].
+    /// Reference density of the water [kg/m3].
     pub density_kg_m3: f64,
     /// Gravitational acceleration [m/s2].
     pub gravity_m_s2: f64,
-    /// Speed of sound over sqrt(g d) [-], where d is the largest initial water depth in the domain. With 10, the
-    /// density varies by less than 1 % if the water is slower than a long wave, sqrt(g d). With 15, hydrostatic
-    /// compression makes still water less than 0.25 % too heavy.
+    /// Artificial speed of sound / sqrt(g d) [-], with the largest initial water depth d in the domain. With 10, the
+    /// density varies by less than 1 % if the velocity of the water is below sqrt(g d), the celerity of a long wave.
+    /// With 15, hydrostatic compression makes still water less than 0.25 % too heavy.
     pub sound_speed_factor: f64,
     /// Exponent gamma of Tait's equation of state [-].
     pub tait_exponent: f64,

@@ -22,7 +22,7 @@ pub struct NumericsFile {
     pub diffusion_delta: f64,
     /// Coefficient A of particle shifting [-]: 0 for no shifting. A usual value is 2.
     pub shifting_coefficient: f64,
-    /// Courant number C of the time step [-].
+    /// Courant number C, which limits the time step [-].
     pub cfl: f64,
     /// Boundary condition at bed, walls, wavemaker and units.
     pub boundary: Boundary,
@@ -37,7 +37,7 @@ pub struct NumericsFile {
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub slip_on_units: bool,
     /// true: water pressure also acts on a unit in gaps that are too narrow for water particles. false: only water
-    /// particles act on units, which is probably the method of the published runs. Has an effect only with `mdbc`.
+    /// particles act on units, probably as in the runs of Mitsui et al. Has an effect only with `mdbc`.
     #[serde(skip_serializing_if = "Clone::clone")]
     pub gap_pressure: bool,
     /// Number of particle layers in walls and bed.
@@ -73,7 +73,7 @@ impl Default for NumericsFile {
 pub enum Viscosity {
     /// Artificial viscosity (Monaghan 1992), equation 3.
     Artificial,
-    /// Laminar viscosity (Lo & Shao 2002). Waves on a free surface lose too little energy.
+    /// Laminar viscosity (Lo & Shao 2002). With this model, waves on a free surface lose too little energy.
     Laminar,
     /// Laminar viscosity with sub-particle-scale turbulence (Dalrymple & Rogers 2006).
     LaminarSps,

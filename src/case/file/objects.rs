@@ -16,7 +16,7 @@ pub struct UnitsFile {
     /// Edge lengths of a cuboid along x, y and z [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size_m: Option<[f64; 3]>,
-    /// Waist ratio of a Dolos [-]: width of the stem over the height of the unit. Default: 0.34.
+    /// Waist ratio of a Dolos [-]: width of the stem / height of the unit. Default: 0.34.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub waist_ratio: Option<f64>,
     /// STL files of a unit. Required for the shape `stl`.
@@ -43,7 +43,7 @@ pub struct UnitsFile {
     /// Distance between the vertical axes of neighbouring units in the row [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch_m: Option<f64>,
-    /// x of the axes of the units in the row [m].
+    /// x of the vertical axes of the units in the row [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub x_m: Option<f64>,
     /// Centre of mass [x, y, z] of each unit [m]. Replaces `count`, `pitch_m`, `x_m` and `first_y_m`. Units may stand
@@ -93,7 +93,7 @@ pub enum ArmourOrientation {
     /// Random rotation about any axis. All rotations are equally likely.
     #[default]
     Random,
-    /// Upright units. Neighbours differ by 180 degrees about the vertical axis.
+    /// All units are upright. Neighbours differ by a rotation of 180 degrees about the vertical axis.
     Alternating,
 }
 
@@ -222,8 +222,8 @@ pub struct FrictionFile {
     /// Kinetic friction coefficient, for sliding contacts [-]. Default: `coefficient`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinetic_coefficient: Option<f64>,
-    /// Rolling resistance coefficient [-]: largest resisting moment, divided by normal force times rounding radius.
-    /// Default: 0.
+    /// Rolling resistance coefficient [-]: largest resisting moment / (normal force times radius). The radius is the
+    /// rounding radius of the units, or half of it for a contact of two units. Default: 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_coefficient: Option<f64>,
     /// Coefficient of restitution of this pair of materials [-]. Default: the smaller of the two materials' values.
@@ -235,7 +235,7 @@ pub struct FrictionFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ContactFile {
-    /// Rounding radius of the edges of a unit over the height of the unit [-]. Hertz's law uses the same radius.
+    /// Rounding radius of the edges of a unit / height of the unit [-]. Hertz's law uses the same radius.
     pub rounding_share: f64,
     /// Contact law.
     // Left out of the serialized case at its default, so that cases without this key keep their hash.
@@ -302,12 +302,12 @@ pub struct PointFile {
     pub name: String,
     /// Initial position [x, y, z] [m].
     pub at_m: [f64; 3],
-    /// Number of the unit with which the gauge moves, counted from 1. By default, no unit moves the gauge.
+    /// Number of the unit with which the gauge moves, counted from 1. By default, the gauge does not move with a unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on_unit: Option<u32>,
     /// Path of a moving gauge. Each row [t, x, y, z] has the time t from the start of the particle simulation [s] and
-    /// the displacement x, y, z [m]. The gauge moves linearly between rows, and stays at the displacement of the last
-    /// row.
+    /// the displacement x, y, z from `at_m` [m]. The displacement is linear between rows and constant before the first
+    /// and after the last row.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub way: Vec<[f64; 4]>,
 }

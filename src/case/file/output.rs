@@ -13,7 +13,7 @@ pub struct OutputFile {
     pub units_interval_s: f64,
     /// Interval between rows of the tables with gauges, unit motion, unit forces and energy [s].
     pub series_interval_s: f64,
-    /// Interval between checkpoints in simulated time [s]; 0 for only one checkpoint, at the end of the run.
+    /// Simulated time between checkpoints [s]; 0 for only one checkpoint, at the end of the run.
     pub checkpoint_interval_s: f64,
     /// Fields of the water particles in the snapshots, each listed at most once. The position is always written. The
     /// report draws the water only if the list contains `velocity`.
@@ -88,10 +88,11 @@ pub struct StopFile {
 #[serde(deny_unknown_fields)]
 pub struct AtRestFile {
     /// A unit is at rest if its centre and its tips are slower than this speed [m/s]. In a flume case, centre and tips
-    /// must also stay within this speed times `for_s` of the positions that they had when the time at rest began.
+    /// must also stay near their positions at the start of the time at rest: within `speed_m_s` times `for_s`.
     pub speed_m_s: f64,
     /// Time for which all units must be at rest [s].
     pub for_s: f64,
-    /// Earliest time at which the rest criterion can end the run [s].
+    /// Earliest time at which the rest criterion can end the run [s]. If the flume model carries a solitary wave, its
+    /// crest must also have reached all units.
     pub not_before_s: f64,
 }

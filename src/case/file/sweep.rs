@@ -26,9 +26,9 @@ pub struct SweepFile {
     /// Rule that combines the values of different keys.
     #[serde(default)]
     pub combine: Combine,
-    /// Simulated time [s] until which the units do not move in any run. One common run with the first values computes
-    /// the case up to this time, and all runs start from its checkpoint. With this key, only `friction`,
-    /// `stop.at_rest`, `title`, `assumptions` and `reference` may vary.
+    /// Simulated time [s] until which the units do not move in any run. One common run with the first value of each
+    /// key computes the case up to this time. All runs start from the checkpoint of the common run. With this key,
+    /// only `friction`, `stop.at_rest`, `title`, `assumptions` and `reference` may vary.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub common_start_s: Option<f64>,
 }

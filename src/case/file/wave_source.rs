@@ -11,8 +11,9 @@ use serde::{Deserialize, Serialize};
 pub struct ExternalWaveFile {
     /// Files that the other program has written.
     pub source: WaveSourceFile,
-    /// Celerity of the wave [m/s]. If given, each row of the wavemaker moves with the velocity at its current position.
-    /// If not given, each row moves with the velocity at its start position, and the stroke of the row is too short.
+    /// Celerity of the wave [m/s]. If given, each row of the wavemaker moves with the water velocity at the row's
+    /// current position. Otherwise, the row moves with the velocity at its initial position, and its stroke is too
+    /// short.
     #[serde(default)]
     pub celerity_m_s: Option<f64>,
 }
@@ -45,7 +46,7 @@ pub struct SwashFile {
     pub level: SwashTableFile,
     /// Table of the velocities, with the columns `TSEC` and `VELK`. It may be the same file as for `level`.
     pub velocity: SwashTableFile,
-    /// Thickness of each layer over the depth [-], from the surface downwards. Default: all layers are equally thick.
+    /// Thickness of each layer / water depth [-], from the surface downwards. Default: all layers are equally thick.
     #[serde(default)]
     pub layer_shares: Vec<f64>,
 }

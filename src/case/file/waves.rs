@@ -32,7 +32,7 @@ impl Default for WaveFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolitaryFile {
-    /// Wave height above the still water level, at the depth where the wave is generated [m].
+    /// Height of the crest above the still water level where the wave is generated [m].
     pub height_m: f64,
     /// Theory of the solitary wave. It also determines how the wave is generated.
     #[serde(default)]
@@ -58,7 +58,7 @@ pub struct RegularFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct IrregularFile {
-    /// Significant wave height H_s = 4 sqrt(m_0) [m].
+    /// Significant wave height H_s = 4 sqrt(m_0) [m], with the variance m_0 of the surface elevation [m2].
     pub significant_height_m: f64,
     /// Peak period T_p of the spectrum [s].
     pub peak_period_s: f64,
@@ -97,10 +97,10 @@ fn default_repeat_periods() -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SolitaryTheory {
-    /// Piston motion for the surface H sech^2(k (c t - x)) with k = sqrt(3 H / (4 d^3)): wave height H,
-    /// depth d, celerity c (Goring & Raichlen 1980).
+    /// Piston motion for the surface elevation H sech^2(k (c t - x)) at time t and position x, k = sqrt(3 H / (4 d^3)),
+    /// with wave height H, still water depth d and celerity c (Goring & Raichlen 1980).
     Boussinesq,
-    /// Same surface with k = sqrt(3 H / (4 d^2 (d + H))), more accurate than `boussinesq` (Guizien & Barthelemy 2002).
+    /// As `boussinesq`, but with k = sqrt(3 H / (4 d^2 (d + H))), which is more accurate (Guizien & Barthelemy 2002).
     #[default]
     Rayleigh,
     /// Third-order wave (Grimshaw 1971), which enters the flume model through its seaward end.
@@ -137,8 +137,8 @@ impl WavemakerFile {
 #[serde(deny_unknown_fields)]
 pub struct PistonFile {
     /// Distance between the piston and an absorption gauge, which moves with the piston [m]. With this key, the piston
-    /// absorbs reflected waves. The reflected wave is the measured minus the generated elevation at the gauge. By
-    /// default, there is no absorption.
+    /// absorbs reflected waves. The reflected wave is the elevation measured at this gauge minus the elevation of the
+    /// generated wave. By default, there is no absorption.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub absorption_gauge_m: Option<f64>,
 }

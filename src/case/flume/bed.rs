@@ -5,7 +5,7 @@ use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::geometry::profile::Profile;
 use crate::waves::flume_model::layered::{Friction, RightEnd};
 
-/// Largest coordinate [m]. Larger values are probably typing errors.
+/// Largest allowed coordinate [m]. Larger values are probably typing errors.
 const LARGEST_COORDINATE: f64 = 1e5;
 /// Largest number of cells in the flume model.
 const MOST_CELLS: f64 = 200_000.0;

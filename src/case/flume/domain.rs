@@ -53,7 +53,7 @@ pub struct Domain {
 pub enum Start {
     /// At this time of the flume model [s].
     At(f64),
-    /// When the depth-averaged water velocity at the wavemaker first reaches this value times its maximum [-].
+    /// When the depth-averaged water velocity at the wavemaker first reaches this fraction of its maximum [-].
     AtShare(f64),
 }
 
@@ -242,7 +242,8 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
     }
     let layers = (width / file.dp_m).round().max(1.0);
     let stretch = width / layers / file.dp_m;
-    // If the spacings along and across the flume differ by more than a few per cent, the density of still water drifts.
+    // If the particle spacings along and across the flume differ by more than a few per cent, the density of still
+    // water drifts.
     if (stretch - 1.0).abs() > 0.03 {
         check.warn(format!(
             "domain.width_m = {} is {:.2} particle spacings: the spacing across the flume becomes {:.3} dp_m; \

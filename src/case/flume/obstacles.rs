@@ -10,20 +10,21 @@ use crate::geometry::axis_box::AxisBox;
 /// Largest number of obstacles in one case.
 const MOST_OBSTACLES: usize = 1000;
 
-/// Smallest thickness of an obstacle over dp [-]. Through a thinner obstacle, particles on opposite sides interact.
+/// Smallest allowed thickness of an obstacle, divided by the particle spacing dp [-]. Water particles on opposite sides
+/// of a thinner obstacle interact with each other.
 const THINNEST: f64 = 3.0;
 
-/// Width of the narrowest gap that water can enter, over dp [-].
+/// Width of the narrowest gap that water can enter, divided by the particle spacing dp [-].
 const NARROWEST: f64 = 2.0;
 
-/// Distance below which two faces count as touching, over dp [-].
+/// Distance below which two faces count as touching, divided by the particle spacing dp [-].
 const FLUSH: f64 = 1e-6;
 
 /// Names of the axes in messages.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Validates the obstacles. Faces that touch the ground or a wall are not open to the water. `width` is the width of
-/// the domain [m].
+/// Validates the obstacles. Marks the obstacle faces that touch the ground or a wall as closed to the water. `width` is
+/// the width of the domain [m].
 pub fn validate(file: &DomainFile, width: f64, flume: &Flume, check: &mut Checker) -> Vec<AxisBox> {
     if file.obstacles.len() > MOST_OBSTACLES {
         check.reject(

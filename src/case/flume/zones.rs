@@ -3,8 +3,8 @@
 use crate::case::file::{DampingZoneFile, RelaxationZoneFile};
 use crate::case::reading::check::{Checker, as_text, more_than};
 
-/// Largest rate f at the end of a zone [1/s]. At this rate, water with a velocity of 1 m/s stops within a millimetre,
-/// so the zone reflects waves like a wall.
+/// Largest allowed rate f at the end of a zone [1/s]. At this rate, water with a velocity of 1 m/s stops within a
+/// millimetre, so the zone reflects waves like a wall.
 const LARGEST_COEFFICIENT: f64 = 1000.0;
 
 /// Zone in which the velocity v of the water decays, dv/dt = -f(x) v; SI units.
@@ -17,8 +17,8 @@ pub struct DampingZone {
 }
 
 impl DampingZone {
-    /// Returns the rate f at x [1/s]. In the zone, f = coefficient times ((x - x0) / (x1 - x0))^2 with the ends x0, x1
-    /// of the zone. Seaward of the zone f = 0, shoreward of it f = coefficient.
+    /// Returns the rate f at x [1/s]. In the zone, f = coefficient times ((x - x0) / (x1 - x0))^2 with the seaward end
+    /// x0 and the shoreward end x1. Seaward of the zone f = 0, shoreward of the zone f = coefficient.
     pub fn rate(&self, x: f64) -> f64 {
         let share = ((x - self.x[0]) / (self.x[1] - self.x[0])).clamp(0.0, 1.0);
         self.coefficient * share * share
@@ -36,8 +36,8 @@ pub struct RelaxationZone {
 }
 
 impl RelaxationZone {
-    /// Returns the rate f at x [1/s]. In the zone, f = coefficient times ((x1 - x) / (x1 - x0))^2 with the ends x0, x1
-    /// of the zone. Shoreward of the zone f = 0.
+    /// Returns the rate f at x [1/s]. In the zone, f = coefficient times ((x1 - x) / (x1 - x0))^2 with the seaward end
+    /// x0 and the shoreward end x1. Shoreward of the zone f = 0.
     pub fn rate(&self, x: f64) -> f64 {
         let share = ((self.x[1] - x) / (self.x[1] - self.x[0])).clamp(0.0, 1.0);
         self.coefficient * share * share

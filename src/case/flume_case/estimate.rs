@@ -23,7 +23,8 @@ pub struct Estimate {
     pub units: f64,
     /// Memory that the run needs [bytes].
     pub bytes: f64,
-    /// Time step [s]: cfl h / c0 with the speed of sound c0, or the viscous limit of laminar models if it is smaller.
+    /// Time step [s]: cfl h / c0 with smoothing length h and speed of sound c0, or the viscous limit of laminar models
+    /// if this limit is smaller.
     pub dt: f64,
     /// Number of time steps of the whole run.
     pub steps: f64,
@@ -45,8 +46,8 @@ impl Case {
         }
     }
 
-    /// Returns the volume of the initial water inside a box over the volume of all initial water [-]. `[low, high]` are
-    /// the lower and the upper corner of the box [m].
+    /// Returns the share of the initial water volume that is inside a box [-]. `[low, high]` are the lower and the
+    /// upper corner of the box [m].
     pub fn share_of_water_in(&self, [low, high]: [[f64; 3]; 2]) -> f64 {
         let (profile, (x, top)) = (&self.flume.profile, self.water_at_start());
         let overlap = |[a0, a1]: [f64; 2], [b0, b1]: [f64; 2]| [a0.max(b0), a1.min(b1).max(a0.max(b0))];

@@ -33,7 +33,7 @@ pub struct Numerics {
     pub delta: f64,
     /// Coefficient A of particle shifting [-]; 0 for no shifting.
     pub shifting: f64,
-    /// Courant number C of the time step [-].
+    /// Courant number C, which limits the time step [-].
     pub cfl: f64,
     /// Boundary condition at bed, walls, wavemaker and units.
     pub boundary: Boundary,
@@ -175,8 +175,9 @@ fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
     }
 }
 
-/// Refuses unstable density diffusion. The shortest density wave decays at the rate lambda = 2 delta h c0
-/// sum_b V_b |G_ab|, where G_ab r_ab is the kernel gradient. lambda is at most 7 delta c0 / h, because |G|
+/// Refuses unstable density diffusion. At particle a, the shortest density wave decays at the rate
+/// lambda = 2 delta h c0 sum_b V_b |G_ab|, with smoothing length h, speed of sound c0, volume V_b of each neighbour b,
+/// and kernel gradient G_ab r_ab for the vector r_ab between a and b. lambda is at most 7 delta c0 / h, because |G|
 /// integrates to 7 / (2 h^2). One time step dt = cfl h / c0 multiplies the amplitude of this wave by 1 - z + z^2 / 2
 /// with z = lambda dt. The wave grows if z > 2.
 fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {

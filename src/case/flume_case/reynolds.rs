@@ -11,8 +11,9 @@ const LEAST_REYNOLDS: f64 = 50.0;
 /// Kinematic viscosity of water at 20 degrees [m2/s].
 const WATER_VISCOSITY: f64 = 1e-6;
 
-/// Returns the kinematic viscosity to which artificial viscosity is equivalent [m2/s]: alpha h c0 / 10 in three
-/// dimensions, alpha h c0 / 8 in two (Monaghan 2005). Returns `None` with the other viscosity models.
+/// Returns the kinematic viscosity to which artificial viscosity with the coefficient alpha is equivalent [m2/s]:
+/// alpha h c0 / 10 in three dimensions, alpha h c0 / 8 in two (Monaghan 2005), with smoothing length h and speed of
+/// sound c0. Returns `None` with the other viscosity models.
 fn artificial_viscosity(case: &Case) -> Option<f64> {
     let numerics = &case.numerics;
     let divisor = if case.domain.sides == Sides::TwoDimensional { 8.0 } else { 10.0 };
@@ -20,14 +21,14 @@ fn artificial_viscosity(case: &Case) -> Option<f64> {
     is_artificial.then_some(numerics.alpha * numerics.h * case.fluid.sound_speed / divisor)
 }
 
-/// Returns the water velocity in a long wave at x, H sqrt(g / d) [m/s]. Returns `None` if the wave height is not known
-/// or the ground at x is dry.
+/// Returns the water velocity in a long wave of height H at x, H sqrt(g / d) [m/s], with the still water depth d at x.
+/// Returns `None` if the wave height is not known or the ground at x is dry.
 fn long_wave_velocity(case: &Case, x: f64) -> Option<f64> {
     let depth = Some(case.flume.still_depth(x)).filter(|depth| *depth > 0.0)?;
     Some(case.wave.height()? * (case.fluid.gravity / depth).sqrt())
 }
 
-/// Returns the largest Reynolds number of all units [-]; the length scale is the height of a unit.
+/// Returns the largest Reynolds number of all units [-]; its length is the height of a unit.
 fn reynolds_number(case: &Case) -> Option<f64> {
     let units = case.units.as_ref()?;
     let fastest =
@@ -69,8 +70,8 @@ mod tests {
 
     #[test]
     fn reynolds_number_uses_the_wave_over_the_mound() {
-        // nu = 0.04 h c0 / 10 with h = 1.2 sqrt(3) 7 mm and c0 = 10 sqrt(g 0.217 m): the depth at x = 36.5 m is
-        // 0.217 m. At the units, which are 77 mm high, the depth is 83 mm.
+        // nu = alpha h c0 / 10 with alpha = 0.04, h = 1.2 sqrt(3) 7 mm and c0 = 10 sqrt(g 0.217 m): the depth at
+        // x = 36.5 m is 0.217 m. At the units, which are 77 mm high, the depth is 83 mm.
         let depth: f64 = 0.8 - 17.5 / 30.0;
         let nu = 0.004 * 1.2 * 3.0_f64.sqrt() * 0.007 * 10.0 * (9.81 * depth).sqrt();
         let expected = 0.026 * (9.81_f64 / 0.083).sqrt() * 0.077 / nu;

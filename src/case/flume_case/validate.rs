@@ -148,7 +148,7 @@ pub fn surroundings<'a>(
 }
 
 fn validate_numerics(file: &CaseFile, stop: &Stop, check: &mut Checker) -> Option<Numerics> {
-    // `hold_units_s` has a default. Therefore it is compared with the duration only if the case has units.
+    // A run without units may be shorter than the default of `hold_units_s`, which then has no effect.
     let longest_hold = if file.units.is_some() && stop.duration > 0.0 { stop.duration } else { f64::MAX };
     numerics::validate_numerics(&file.numerics, file.domain.dp_m, longest_hold, check)
 }

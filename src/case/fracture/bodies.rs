@@ -13,11 +13,11 @@ use crate::femdem::material::{Elastic, Strength};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::setup::Body;
 
-/// Default joint penalty p_0 / E of intrinsic joints and of tied joints [-]. Published programs use 50 for intrinsic
-/// joints. For tied joints 10 is enough, because only joints that have reached their strength are soft. When a tied
-/// joint becomes soft, the body gains the energy of the joint spring. In the drop test of a Dolos (elements of 50 mm,
-/// impact energy 680 J), the total gain is 54 J with a penalty of 2, 11 J with 10 and 4 J with 30. Penalties of 10 and
-/// more give the same cracks.
+/// Default joint penalties of intrinsic joints and of tied joints [-]. Published programs use 50 for intrinsic joints.
+/// For tied joints 10 is enough, because only joints that have reached their strength are soft. When a tied joint
+/// becomes soft, the body gains the energy of the joint spring. In the drop test of a Dolos (elements of 50 mm, impact
+/// energy 680 J), the total gain is 54 J with a penalty of 2, 11 J with 10 and 4 J with 30. Penalties of 10 and more
+/// give the same cracks.
 const PENALTY: [f64; 2] = [50.0, 10.0];
 
 /// Returns the bodies in the order of the mesh. Returns `None` if there are errors.

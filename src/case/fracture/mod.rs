@@ -44,7 +44,7 @@ pub struct FractureCase {
     pub mesh: PreparedMesh,
     /// Bodies, constraints, loads and friction, as the solver uses them.
     pub setup: Setup,
-    /// Time step over the longest stable time step [-].
+    /// Time step / longest stable time step [-].
     pub step_share: f64,
     /// Time step that the case gives [s]; `None` if `step_share` determines the time step.
     pub dt: Option<f64>,
@@ -179,8 +179,9 @@ fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Ve
     }
 }
 
-/// Warns if the mean edge of the elements is longer than a quarter of the characteristic length, E G_f / f_t^2 for
-/// opening cracks, E G_fII / c^2 for shear cracks. Such elements do not resolve these cracks.
+/// Warns if the mean edge of the elements is longer than a quarter of the characteristic length: E G_f / f_t^2 for
+/// opening cracks, E G_fII / c^2 for shear cracks (with Young's modulus E and the symbols of
+/// `StrengthFile`). Such elements do not resolve these cracks.
 fn warn_of_coarse_mesh(setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) {
     for (body, quality) in setup.bodies.iter().zip(&mesh.quality) {
         if let Some(warning) = quality.warning() {

@@ -4,8 +4,8 @@ use crate::case::file::FractureFile;
 use crate::case::output::files::validate_interval;
 use crate::case::reading::check::{Checker, at_least};
 
-/// Default checkpoint interval over the duration of the run [-]. Writing a checkpoint takes as long as about ten time
-/// steps.
+/// Default checkpoint interval as a share of the duration of the run [-]. Writing a checkpoint takes as long as about
+/// ten time steps.
 const CHECKPOINTS_SHARE: f64 = 0.02;
 
 /// Largest number of rows of the energy balance [-].

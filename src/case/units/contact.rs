@@ -6,7 +6,7 @@ use crate::case::reading::check::{Checker, at_least};
 /// Contact between units, and between units and the bed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// Rounding radius of the edges of a unit over the height of the unit [-].
+    /// Rounding radius of the edges of a unit / height of the unit [-].
     pub rounding_share: f64,
     /// Contact law.
     pub law: ContactLawName,

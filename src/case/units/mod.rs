@@ -40,7 +40,7 @@ pub struct Units {
     pub mass: f64,
     /// Initial pose of each unit. In a row, units are sorted by increasing y; otherwise by their order in the file.
     pub placements: Vec<UnitPose>,
-    /// In two dimensions, width of a unit over the thickness of the particle layer [-]; 1 in three dimensions.
+    /// In two dimensions, width of a unit / thickness of the particle layer [-]; 1 in three dimensions.
     pub slices: f64,
     /// A unit counts as damaged if its displacement is larger than this distance [m].
     pub damage_distance: f64,

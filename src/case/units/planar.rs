@@ -53,7 +53,7 @@ pub fn lay(placements: Vec<UnitPose>, site: &Site, check: &mut Checker) -> Vec<U
     placements.into_iter().enumerate().map(lay_one).collect()
 }
 
-/// Returns the width of a unit over the thickness of the particle layer in two dimensions [-]; 1 in three dimensions.
+/// Returns the width of a unit divided by the thickness of the particle layer [-]; 1 in three dimensions.
 pub fn slices(shape: &UnitShape, site: &Site) -> f64 {
     match shape.kind {
         UnitKind::Cuboid { edges } if site.sides == Sides::TwoDimensional => edges[1] / site.width,

@@ -31,7 +31,7 @@ pub enum UnitKind {
 }
 
 impl UnitKind {
-    /// Builds the unit. `rounding_share` is the rounding radius of its edges over its height [-].
+    /// Builds the unit. `rounding_share` is the rounding radius of its edges, divided by its height [-].
     ///
     /// # Errors
     /// If lengths, waist ratio or rounding are outside the range in which the unit can be built.
@@ -58,9 +58,9 @@ impl UnitKind {
         }
     }
 
-    /// Returns the stability coefficient K_D of Hudson's formula [-] for two layers, random placement, trunk, breaking
-    /// waves: Shore Protection Manual (1984), table 7-8; Core-Loc: Melby & Turk (1997). `None` if no handbook has a
-    /// value.
+    /// Returns the stability coefficient K_D of Hudson's formula [-] for two layers of randomly placed units on the
+    /// trunk of a breakwater in breaking waves: Shore Protection Manual (1984), table 7-8; Core-Loc: Melby & Turk
+    /// (1997). `None` if no handbook has a value.
     pub fn stability_coefficient(&self) -> Option<f64> {
         match self {
             Self::Tetrapod { .. } => Some(7.0),
@@ -116,7 +116,7 @@ impl UnitShape {
         [reach(0), reach(1)]
     }
 
-    /// Returns the height of the centre of a standing unit above the ground [m], without the rounding of its edges.
+    /// Returns the height of the centre of a standing unit above the ground [m], for a unit with sharp edges.
     pub(in crate::case) fn centre_height(&self) -> f64 {
         self.unit.standing_height_sharp()
     }
@@ -124,7 +124,7 @@ impl UnitShape {
     /// Returns the smallest distance between the centres of two neighbouring units in a row without overlap [m].
     pub(in crate::case) fn least_pitch(&self) -> f64 {
         match &self.kind {
-            // Neighbours that differ by 180 degrees fit between each other's legs.
+            // If neighbours differ by 180 degrees, the legs of each unit fit between the legs of the other unit.
             UnitKind::Tetrapod { height } => 0.75 * height,
             // The factor allows for rounding of the numbers in the file.
             UnitKind::Cuboid { edges } => edges[1] * (1.0 - 1e-9),
@@ -132,7 +132,7 @@ impl UnitShape {
         }
     }
 
-    /// Returns true if two standing units overlap whose centres differ by `offset` [m]. Cuboids may touch.
+    /// Returns true if two standing units overlap when their centres differ by `offset` [m]. Cuboids may touch.
     pub(in crate::case) fn overlaps(&self, offset: [f64; 3]) -> bool {
         match &self.kind {
             UnitKind::Cuboid { edges } => {

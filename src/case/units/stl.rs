@@ -11,7 +11,7 @@ use crate::geometry::decomposition::{self, Decomposition};
 use crate::geometry::solid::Solid;
 use crate::geometry::stl;
 
-/// Largest allowed volume that convex parts and unit do not have in common, over the volume of the unit [-].
+/// Largest allowed volume that convex parts and unit do not have in common, divided by the volume of the unit [-].
 const LARGEST_ERROR: f64 = 0.05;
 
 /// Largest number of files with convex parts.
@@ -22,7 +22,7 @@ const MOST_PARTS: usize = 63;
 pub struct StlUnit {
     solid: Arc<Solid>,
     parts: Arc<Vec<Polyhedron>>,
-    /// Volume that convex parts and unit do not have in common, over the volume of the unit [-].
+    /// Volume that convex parts and unit do not have in common, divided by the volume of the unit [-].
     pub volume_error: f64,
     /// Name in the run folder and content of each file.
     files: Arc<Vec<(String, Vec<u8>)>>,

@@ -24,7 +24,7 @@ pub const ROWS_FILE: &str = "wave_velx.csv";
 pub struct ExternalWave {
     /// Velocities as a function of time at the levels of the wavemaker's rows.
     pub rows: Arc<Velx>,
-    /// Celerity of the wave [m/s]. If given, each row moves with the velocity at its current position.
+    /// Celerity of the wave [m/s]. If given, each row moves with the water velocity at the row's current position.
     pub celerity: Option<f64>,
 }
 
@@ -54,7 +54,8 @@ pub fn validate(
     check: &mut Checker,
 ) -> Option<ExternalWave> {
     if let Some(celerity) = file.celerity_m_s {
-        // The fastest wave is a breaking solitary wave, sqrt(1.8 g d); the factor 2 in the limit allows for currents.
+        // The fastest wave is a breaking solitary wave of height 0.8 d in the depth d, with the celerity sqrt(1.8 g d).
+        // The factor 2 in the limit allows for currents.
         let fastest = 2.0 * (1.8 * gravity * flume.still_depth(domain.x[0])).sqrt();
         let advice = "a solitary wave of height H in the depth d has the celerity sqrt(g (d + H))";
         check.number("wave.celerity_m_s", celerity, more_than(0.0).up_to(fastest), "m/s", advice);

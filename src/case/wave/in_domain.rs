@@ -8,7 +8,7 @@ use crate::case::flume::zones::RelaxationZone;
 use crate::case::reading::check::{Checker, as_text, at_least};
 use crate::waves::theory::regular::RegularWave;
 
-/// Largest allowed stroke of a paddle over the length of the particle domain [-].
+/// Largest allowed stroke of a paddle / length of the particle domain [-].
 const LARGEST_SWEEP: f64 = 0.5;
 /// Bed slope above which the generated wave differs visibly from wavemaker theory [-]. The theory assumes a horizontal
 /// bed.
@@ -17,7 +17,7 @@ const EVEN_SLOPE: f64 = 0.02;
 /// Validates position and stroke of the wavemaker against the particle domain.
 pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain: &Domain, check: &mut Checker) {
     let depth = flume.still_depth(domain.x[0]);
-    // A wavemaker acts as a wall only if the water there is at least four particles deep.
+    // A wavemaker acts as a wall only if the water in front of it is at least four particles deep.
     if depth < 4.0 * domain.dp {
         check.reject(
             "domain.x_m[0]",

@@ -8,7 +8,7 @@ use crate::waves::theory::regular::{MeanFlow, RegularWave, WaveError};
 use crate::waves::theory::solitary::{PistonTheory, SolitaryWave, ThirdOrderSolitary};
 use crate::waves::theory::stream_function::StreamFunctionWave;
 
-/// Smallest allowed wavelength of regular waves over the depth [-].
+/// Smallest allowed wavelength of regular waves / water depth [-].
 const SHORTEST_LENGTH: f64 = 0.1;
 
 pub(super) fn solitary(file: &SolitaryFile, around: &Surroundings, check: &mut Checker) -> Option<Wave> {
@@ -22,7 +22,7 @@ pub(super) fn solitary(file: &SolitaryFile, around: &Surroundings, check: &mut C
         );
         return None;
     }
-    // Above 0.6 d, no theory is close to the exact wave. Above 0.78 d, the wave breaks.
+    // For a height above 0.6 depths, no theory is close to the exact wave. Above 0.78 depths, the wave breaks.
     check.number(
         "wave.height_m",
         file.height_m,
@@ -94,7 +94,7 @@ pub(super) fn irregular(file: &IrregularFile, around: &Surroundings, check: &mut
     check.number("wave.repeat_periods", file.repeat_periods, at_least(20.0).up_to(2000.0), "", repeat);
     validate_ramp(file.ramp_periods, check);
     let depth = around.wet_depth(check)?;
-    // The highest of 3,000 waves is twice as high as H_s, at most 0.8 d. A solitary wave of 0.8 d breaks.
+    // The highest of 3,000 waves is twice as high as H_s: at most 0.8 depths. A solitary wave of this height breaks.
     let height = format!("the limit is 0.4 times the depth, {} m", as_text(depth));
     check.number(
         "wave.significant_height_m",

@@ -6,7 +6,7 @@ use crate::case::reading::check::{Checker, at_least};
 use crate::waves::generation::paddle_motion::{PaddleShape, RegularMotion};
 use crate::waves::theory::regular::RegularWave;
 
-/// Largest distance of a hinge from z = 0 [m]. Larger values are probably typing errors.
+/// Largest allowed distance of a hinge from z = 0 [m]. Larger values are probably typing errors.
 const FURTHEST_HINGE: f64 = 1e5;
 
 /// Wavemaker at the seaward end of the particle domain.

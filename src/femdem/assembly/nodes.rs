@@ -5,7 +5,7 @@ use glam::DVec3;
 /// Marks the nodes of rigid bodies in [`Nodes::constraint`]. The rigid body applies the constraints of these nodes.
 pub const RIGID: u16 = u16::MAX;
 
-/// Number of a node copy: 4 x tetrahedron + vertex.
+/// Number of a node copy: 4 x number of its tetrahedron + number of its vertex in the tetrahedron (0 to 3).
 pub type NodeCopy = u32;
 
 /// Positions, velocities and masses of the nodes.
@@ -13,7 +13,7 @@ pub type NodeCopy = u32;
 pub struct Nodes {
     /// Positions x [m].
     pub position: Vec<DVec3>,
-    /// Velocities v [m/s], half a time step before the positions.
+    /// Velocities v [m/s]. They refer to half a time step before the time of the positions.
     pub velocity: Vec<DVec3>,
     /// Lumped masses [kg].
     pub mass: Vec<f64>,

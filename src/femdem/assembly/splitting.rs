@@ -60,8 +60,8 @@ impl Nodes {
     }
 }
 
-/// Builds nodes and tetrahedra. Copies of a mesh node become one node if tied faces connect them. `tied` returns true for
-/// the number of a tied interface. Nodes are numbered in the order of the tetrahedra.
+/// Builds nodes and tetrahedra. Copies of a mesh node become one node if tied faces connect them. `tied(number)` is
+/// true if the interface with this number is tied. Nodes are numbered in the order of the tetrahedra.
 pub fn assemble(setup: &Setup, tied: impl Fn(u32) -> bool) -> (Nodes, Tets) {
     let mut tets = Tets::new(setup);
     let around = copies_around(setup);
@@ -114,9 +114,9 @@ fn lumped_mass(copies: &[NodeCopy], tets: &Tets, setup: &Setup) -> f64 {
     copies.iter().map(quarter).sum()
 }
 
-/// Splits the copies of a node into groups. Tied faces connect the copies of a group. `tied` returns true for the number of a face that
-/// connects its two tetrahedra. Copies and groups are in ascending order. In a body that cannot crack, all copies form
-/// one group.
+/// Splits the copies of a node into groups; tied faces connect the copies of a group. `tied(number)` is true if the
+/// face with this number connects its two tetrahedra. Copies and groups are in ascending order. In a body that cannot
+/// crack, all copies form one group.
 pub fn connected_groups(
     tets: &Tets,
     setup: &Setup,
@@ -173,7 +173,7 @@ fn tied_neighbours<'a>(
 }
 
 /// Splits the node at corner `corner` (0 to 2) of a face that is no longer tied. The node is not split if other tied
-/// faces still connect all its copies. `tied` returns true for the number of a tied interface.
+/// faces still connect all its copies. `tied(number)` is true if the interface with this number is tied.
 pub fn split(
     nodes: &mut Nodes,
     tets: &mut Tets,

@@ -3,9 +3,10 @@
 //!
 //! Method: Munjiza & Andrews (1998), "NBS contact detection algorithm for bodies of similar size", IJNME 43, 131-149.
 //! Hierarchy for boxes of different size: Ericson (2005), "Real-Time Collision Detection", section 7.2. A box is stored
-//! on the finest level whose cells are not smaller than the box, in the cells that it covers there (at most eight). It
-//! is tested against the boxes in the cells that it covers on this level and on all coarser levels. The hash table has
-//! one to two buckets per entry, so work and memory are linear in the number of boxes, even if boxes are far apart.
+//! on the finest level whose cells are not smaller than the box, in the cells that it covers there (at most eight). The
+//! box is compared with all boxes stored in the cells that it covers on this level and on all coarser levels. The hash
+//! table has one to two buckets per entry, so work and memory are linear in the number of boxes, even if boxes are far
+//! apart.
 
 use glam::{DVec3, I64Vec3};
 use rayon::prelude::*;
@@ -42,7 +43,7 @@ impl Bounds {
 const CHUNK: usize = 1024;
 /// Number of levels; the cell size doubles from level to level.
 const LEVELS: usize = 32;
-/// Cell size of the finest level over the median box size [-]. For meshes, detection is fastest with this value.
+/// Cell size of the finest level, divided by the median box size [-]. For meshes, detection is fastest with this value.
 const FINEST: f64 = 1.25;
 
 /// Returns the pairs (i, j), i < j, of intersecting boxes for which `keep(i, j)` is true. They are in ascending order
@@ -109,8 +110,8 @@ impl Table {
         table
     }
 
-    /// Returns the bucket of a cell by multiplicative hash (Knuth 1973, "The Art of Computer Programming" 3, section
-    /// 6.4).
+    /// Returns the bucket of the cell with a key, by multiplicative hashing (Knuth 1973, "The Art of Computer
+    /// Programming" 3, section 6.4).
     fn bucket(&self, key: u64) -> usize {
         let buckets = self.starts.len() - 1;
         ((key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize * buckets) >> 32
@@ -126,7 +127,7 @@ impl Table {
 
 /// The grids of all levels.
 struct Grids {
-    /// Edge of the cells of the finest level [m].
+    /// Edge length of the cells of the finest level [m].
     finest: f64,
     /// For each level, true if at least one box is stored on it.
     occupied: [bool; LEVELS],

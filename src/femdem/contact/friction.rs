@@ -33,7 +33,7 @@ pub struct TangentialSpring {
 pub struct Friction {
     /// Forces on the vertices of T and of C [N].
     pub forces: [[DVec3; 4]; 2],
-    /// Energy dissipated since the last call [J].
+    /// Energy dissipated since the last call of [`TangentialSpring::advance`] [J].
     pub dissipated: f64,
 }
 
@@ -50,12 +50,12 @@ impl TangentialSpring {
 
     /// Updates the spring and returns the friction of the pair (T, C) at the end of a time step. `vertices` [m] and
     /// `overlap` refer to the end of the time step. `moves` are the displacements of the vertices in the time step [m],
-    /// and `penalty` is p [Pa].
+    /// and `penalty` is the contact penalty p [Pa].
     ///
-    /// Energy: the work of friction is the mean of the forces at start and end of the time step, times the slip. It
-    /// equals minus the change of [`Self::stored`] minus `dissipated`, if the contact does not rotate in the time step.
-    /// If the spring force reverses within a time step, the dissipation can be negative. It is then set to zero, and
-    /// the energy balance has an error of the same amount.
+    /// Energy: the work of friction is the mean of the forces at the start and at the end of the time step, times the
+    /// slip. If the contact does not rotate in the time step, this work is minus the sum of `dissipated` and the change
+    /// of [`Self::stored`]. If the spring force reverses within a time step, the dissipation can be negative. It is
+    /// then set to zero, and the energy balance has an error of the same amount.
     pub fn advance(
         &mut self,
         law: &FrictionLaw,
@@ -78,8 +78,8 @@ impl TangentialSpring {
         friction
     }
 
-    /// Rotates the spring with the contact normal. Then rotates it about the normal with the bodies: `bodies` is the
-    /// mean rotation vector of T and C [rad].
+    /// Rotates the spring from the old to the new contact normal. Then rotates it about the normal as the bodies
+    /// rotate: `bodies` is the mean of the rotation vectors of T and C in the time step [rad].
     fn turn(&mut self, normal: DVec3, bodies: DVec3) {
         let with_normal = DQuat::from_rotation_arc(self.normal, normal);
         let about_normal = DQuat::from_axis_angle(normal, bodies.dot(normal));
@@ -97,7 +97,7 @@ impl TangentialSpring {
     }
 }
 
-/// Returns the mean rotation of a tetrahedron [rad]: curl(u)/2 of the displacements u of its vertices.
+/// Returns the rotation vector of a tetrahedron [rad]: curl(u)/2, with the displacements u (`moves`) of its vertices.
 fn rotation(tetrahedron: &Tetrahedron, moves: &[DVec3; 4]) -> DVec3 {
     0.5 * tetrahedron.gradients.iter().zip(moves).map(|(gradient, u)| gradient.cross(*u)).sum::<DVec3>()
 }
@@ -117,8 +117,8 @@ mod tests {
     const LAW: FrictionLaw = FrictionLaw { stiffness: 2e9, coefficient: 0.6 };
     const PENALTY: f64 = 1e9;
 
-    /// Returns a large tetrahedron and a small one on its top face. The small one lies `depth` [m] deep in the face and
-    /// is moved by `along` [m] along x.
+    /// Returns a large tetrahedron and a small one on its top face. The small one lies `depth` [m] deep in this face,
+    /// at the position `along` [m] on the x axis.
     fn tetrahedron_on_base(depth: f64, along: f64) -> [[DVec3; 4]; 2] {
         let base = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, -9.0]].map(DVec3::from_array);
         let corner = |angle: f64| DVec3::new(along + 0.5 * angle.cos(), 0.5 * angle.sin(), -depth);
@@ -161,7 +161,8 @@ mod tests {
         let mut spring = TangentialSpring::new(DVec3::Z);
         let (mut heat, mut work, mut force) = (0.0, 0.0, DVec3::ZERO);
         for _ in 0..10_000 {
-            // The limit of the force varies. The slip increments are at most 0.7 of the extension at the lowest limit.
+            // The limit of the spring force, `cap`, varies from 50 to 100 N. A slip increment is at most 0.7 times the
+            // extension at 50 N.
             let cap = 50.0 + 50.0 * random.next_share();
             let slip = (0.5 * 50.0 / LAW.stiffness) * random_point(&mut random).with_z(0.0);
             let released = spring.stretch(&LAW, slip, cap);
@@ -197,7 +198,7 @@ mod tests {
                 assert_eq!(friction.dissipated, 0.0);
             }
             let expected = DQuat::from_axis_angle(axis, 1.0) * (1e-6 * DVec3::X);
-            // Tolerance: 1e-3 of the extension of 1e-6 m, because each increment rotates by 1/2000 rad.
+            // Tolerance: 1e-3 times the extension of 1e-6 m, because the pair rotates in increments of 1/2000 rad.
             assert!((spring.extension - expected).length() < 1e-9, "{} {expected}", spring.extension);
         }
     }
@@ -224,8 +225,8 @@ mod tests {
 
     #[test]
     fn a_sliding_block_stops_after_v2_over_2_mu_g() {
-        // With v = 1 m/s, mu = 0.6 and g = 9.8 m/s2, the distance v^2 / (2 mu g) is 0.0850 m. All vertices of the block
-        // have the same velocity, so it does not rotate.
+        // With the initial speed v = 1 m/s, mu = 0.6 and g = 9.8 m/s2, the block stops after v^2 / (2 mu g) = 0.0850 m.
+        // All vertices of the block have the same velocity, so the block does not rotate.
         let (mass, gravity, step) = (100.0, 9.8, 2e-5);
         let law = FrictionLaw { stiffness: 2e6, coefficient: 0.6 };
         // Bisection finds the depth `low` at which the contact force carries the weight.

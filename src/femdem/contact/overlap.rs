@@ -3,13 +3,13 @@
 //! Contact potential: Munjiza (2004), "The Combined Finite-Discrete Element Method", ch. 2. phi_T is 1 at the centroid
 //! of tetrahedron T, 0 on its surface, and linear in the four sub-tetrahedra between the centroid and the faces. With
 //! the barycentric coordinates lambda_j of T, phi_T is 4 times the smallest lambda_j. phi_C is the same for tetrahedron
-//! C. Energy of the pair (T, C) with the penalty p [Pa]:
+//! C. With the contact penalty p [Pa], the energy of the pair (T, C) is
 //!
 //!   E = p (I_T + I_C),   I_T and I_C = integrals of phi_T and phi_C over the overlap of T and C [m3].
 //!
 //! Gradient. If the vertices move, the velocities u_T in T and u_C in C are linear in the position. phi_T moves with T,
-//! so at a fixed position d phi_T / dt = -u_T . grad phi_T. phi_T is zero on the surface of T. With
-//! the outward unit normal n_k of face k of C, Reynolds' theorem and the divergence theorem give
+//! so at a fixed position d phi_T / dt = -u_T . grad phi_T. phi_T is zero on the surface of T. With the outward unit
+//! normal n_k of face k of C and the surface element dA, Reynolds' transport theorem and the divergence theorem give
 //!
 //!   dI_T/dt = sum over faces k of C of  integral of phi_T (u_C - u_T) . n_k dA over (face k inside T)  +  I_T div u_T.
 //!
@@ -21,18 +21,19 @@
 //! The forces from I_C follow if T and C are exchanged. The forces on T and C act on the same surface elements dA, so
 //! the pair conserves momentum and angular momentum to rounding.
 //!
-//! Volume integral. In part j of T, where lambda_j is least, phi_T is linear, and div(phi_T (x - a_j)) = 4 phi_T for
-//! any point a_j in the plane of face j. With the divergence theorem, I_T becomes a sum of surface integrals. The plane
-//! between two parts j and l, with the normal n, contributes the integral of phi_T (a_l - a_j) . n. This integral
-//! vanishes if a_l - a_j is parallel to the plane. The points of the function `anchors` achieve this for all planes
-//! except the plane between parts 0 and 1. This plane contains the triangle (centroid, vertex 2, vertex 3) of T, and
-//! a_1 - a_0 times the area vector of the triangle is 3 V_T. With the volumes V_T and V_C,
+//! Volume integral. In part j of T, where lambda_j is least, phi_T is linear. With the position x and any point a_j in
+//! the plane of the face opposite to vertex j, div(phi_T (x - a_j)) = 4 phi_T. With the divergence theorem, I_T becomes
+//! a sum of surface integrals. The plane between two parts j and l, with the normal n, contributes the integral of
+//! phi_T (a_l - a_j) . n. This integral vanishes if a_l - a_j is parallel to the plane. The points a_j from `anchors`
+//! achieve this for all planes except the plane between parts 0 and 1. This plane contains the triangle (centroid,
+//! vertex 2, vertex 3) of T. The product of a_1 - a_0 and the area vector of this triangle is 3 V_T. With the volumes
+//! V_T and V_C,
 //!
 //!   4 I_T = sum_k sum_j 3 V_C N_k^C(a_j) m_kj + 3 V_T q.
 //!
 //! m_kj is the integral of phi_T over the area of face k of C that is in part j, divided by the area of the whole face.
-//! q is the integral of phi_T over the area of the triangle that is inside C, divided by the area of the whole
-//! triangle. Every term has a factor phi_T, so faces of T and C that coincide except for rounding cause no error.
+//! q is the integral of phi_T over the part of the triangle inside C, divided by the area of the whole triangle. Every
+//! term has a factor phi_T, so faces of T and C that coincide except for rounding cause no error.
 //!
 //! Stiffness. A pair is stiffest if a face of T and a face of C, both of area A, lie on each other. If d is the small
 //! overlap depth, and h_T and h_C are the heights of T and C over this face, E = 2 p A (1/h_T + 1/h_C) d^2. The largest
@@ -63,11 +64,11 @@ impl Overlap {
     }
 }
 
-/// If `Sum::weight` over `Sum::energy`^(2/3) is at most this value [-], the weight consists of rounding errors only, as
-/// for identical tetrahedra.
+/// If `Sum::weight`, divided by `Sum::energy`^(2/3), is at most this value [-], the weight consists of rounding errors
+/// only, as for identical tetrahedra.
 const NO_WEIGHT: f64 = 1e-12;
 
-/// Computes the overlap of tetrahedra T and C from their vertices [m], in any order. `None` if T and C do not overlap.
+/// Computes the overlap of tetrahedra T and C from their vertices [m] (in any order); `None` if T and C do not overlap.
 pub fn overlap(t: &[DVec3; 4], c: &[DVec3; 4]) -> Option<Overlap> {
     if are_boxes_apart(t, c) {
         return None;
@@ -203,7 +204,7 @@ fn face_integrals(face: [DVec4; 3]) -> Option<FaceIntegrals> {
 }
 
 /// Divides a polygon into parts in which one coordinate is the least. Calls `visit` with the number of this coordinate
-/// and with the part. `least` is the number of the least of the coordinates below number `next`.
+/// and with the part. Among the coordinates with numbers below `next`, the coordinate number `least` is the least.
 fn for_each_part(
     polygon: &Polygon,
     coordinates: &[Linear; 4],

@@ -52,8 +52,8 @@ fn forces_are_minus_the_gradient_of_the_energy() {
                 ((energy_at(step) - energy_at(-step)) / (2.0 * step) + found.forces[body][vertex][axis]).abs()
             };
             // Tolerance 5e-17: rounding of the energy (1e-24 for an overlap 1e-4 m deep), divided by twice the smallest
-            // increment. The best increment depends on the depth and on jumps of the second derivative, so one of six
-            // increments must give the force. The gradient is continuous, so no pair is skipped.
+            // increment of a coordinate. The best increment depends on the overlap depth and on jumps of the second
+            // derivative of the energy, so one of six increments must give the force.
             let allowed = 1e-6 * largest_force(&found) + 5e-17;
             assert!([1e-4, 1e-5, 1e-6, 1e-7, 1e-3, 1e-8].into_iter().any(|step| error(step) < allowed), "{pair:?}");
         }
@@ -136,8 +136,8 @@ fn separate_or_touching_tetrahedra_have_no_overlap() {
     let t = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let below = [DVec3::ZERO, DVec3::X, DVec3::Y, -DVec3::Z];
     assert_eq!(overlap(&t, &below), None);
-    // A corner on a face, an edge on an edge, a corner on a corner. Then separate tetrahedra, first with and then
-    // without intersecting boxes. Last, a tetrahedron without volume.
+    // First, the two tetrahedra touch: a corner on a face, an edge on an edge, a corner on a corner. Then they are
+    // apart, first with and then without intersecting boxes. Last, one tetrahedron has no volume.
     let corner = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     assert_eq!(overlap(&t, &[corner(0.2, 0.2, 0.0), corner(0.0, 0.2, -1.0), corner(0.5, 0.2, -1.0), -DVec3::Z]), None);
     assert_eq!(overlap(&t, &[DVec3::ZERO, DVec3::X, -DVec3::Y, -DVec3::Z]), None);
@@ -153,7 +153,7 @@ fn faces_that_coincide_to_rounding_give_no_spurious_overlap() {
     for _ in 0..2000 {
         let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
         let [a, b, c, d] = t;
-        // `neighbour` lies across the face (a, b, c) of T; `upper` has the same face and lies on the same side as T.
+        // `neighbour` lies on the other side of the face (a, b, c) of T, `upper` on the side of T. Both have this face.
         let mirrored = d - 2.0 * (d - a).project_onto((b - a).cross(c - a));
         let noise = |v: DVec3, random: &mut SplitMix64| v + 2e-16 * random_point(random);
         let neighbour = [a, b, c, mirrored].map(|v| noise(v, &mut random));
@@ -186,7 +186,7 @@ fn energy_of_a_tip_in_a_face_grows_with_the_fourth_power_of_the_depth() {
 
 #[test]
 fn contact_of_two_meshed_cubes_does_not_depend_on_the_numbering() {
-    // A cube of six tetrahedra around its diagonal (Kuhn 1960), one for each order of the three axes.
+    // A cube consists of six tetrahedra around its diagonal (Kuhn 1960), one for each order of the three axes.
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let cube = |shift: DVec3| {
         orders.map(|order| {
@@ -214,8 +214,8 @@ fn contact_of_two_meshed_cubes_does_not_depend_on_the_numbering() {
     assert!((force_again - force).length() < 1e-14 && (force_back + force).length() < 1e-14);
     // Two of the six tetrahedra of each cube have a face in the contact plane. Their potential rises from 0 at this
     // face to 1 over a quarter of their height of 1 m, so its mean over the overlap is 4 depth / 2. The volume of the
-    // overlap is `depth` times 1 m2, so both cubes together have the energy 4 depth^2. Tolerance, in proportion to the
-    // depth: where another face is nearer, the potential is lower.
+    // overlap is `depth` times 1 m2, so both cubes together have the energy 4 depth^2. The tolerance is proportional to
+    // the depth: where another face is nearer than the contact plane, the potential is lower.
     assert!((energy / (4.0 * depth * depth) - 1.0).abs() < 5.0 * depth, "{energy}");
     // The force on the upper cube points upwards. The sides of the cubes are aligned, so there is almost no lateral
     // force.
@@ -269,7 +269,8 @@ fn the_stiffness_of_a_flush_pair_equals_the_formula() {
     let height = (2.0f64 / 3.0).sqrt();
     let normal = -t[3].normalize();
     let mirrored = t[3] + 2.0 * height * normal;
-    // In the eigenvector, the three vertices of each of the two faces move along the normal, each by 1 / sqrt(6).
+    // In the eigenvector of the largest stiffness, the three vertices of each of the two faces move along the normal,
+    // each by 1 / sqrt(6).
     let resultant = |depth: f64| {
         let c = [t[0], t[1], t[2], mirrored].map(|vertex| vertex - depth * normal);
         let found = overlap(&t, &c).unwrap();
@@ -278,6 +279,6 @@ fn the_stiffness_of_a_flush_pair_equals_the_formula() {
     let (depth, change) = (1e-4, 1e-6);
     let stiffness = (resultant(depth + change) - resultant(depth - change)) / (2.0 * change) * 2.0 / 3.0;
     let area = 0.75f64.sqrt() / 2.0;
-    // Tolerance, in proportion to the depth: near the edges of the face, the stiffness is lower.
+    // The tolerance is proportional to the depth: near the edges of the face, the stiffness is lower.
     assert!((stiffness * height / (16.0 / 3.0 * area) - 1.0).abs() < 30.0 * depth, "{stiffness}");
 }

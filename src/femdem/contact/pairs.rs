@@ -5,16 +5,17 @@
 //!
 //! A new pair may overlap from the start. This initial overlap does not count, with one exception: if a joint failed in
 //! compression, the pair takes over the elastic energy of the joint, which would otherwise be dissipated. The energy of
-//! the whole overlap is p I, with the contact penalty p, and I_b is the initial part of I that does not count. If I
-//! exceeds I_b, the energy E and the forces F of the pair are
+//! the whole overlap is p I, with the contact penalty p [Pa] and the sum I = I_T + I_C of the integrals in the module
+//! `overlap` [m3]. I_b is the initial part of I, which does not count. If I exceeds I_b, the energy E and the forces F
+//! of the pair are
 //!
 //!   E = p (sqrt I - sqrt I_b)^2,   F = (1 - sqrt(I_b / I)) times the forces of the whole overlap.
 //!
-//! The forces rise from zero. The stiffest pairs have flush faces. There, I grows with the square of the overlap depth,
-//! so the force rises as steeply as for two separate bodies. (With the energy p (I - I_b), the force would jump at
-//! I = I_b. Fragments that vibrate about this point would gain energy in each time step that crosses the jump: half of
-//! the force times the displacement.) If I falls below I_b, I_b is reduced to I. Fragments that separate and meet again
-//! therefore behave like two separate bodies.
+//! The forces rise from zero. In the stiffest pairs, two faces lie flat on each other. I then grows with the square of
+//! the overlap depth, so the force rises as steeply as for two separate bodies. (With the energy p (I - I_b), the force
+//! would jump at I = I_b. Fragments that vibrate about this point would gain energy in each time step that crosses the
+//! jump.) If I falls below I_b, I_b is reduced to I. Fragments that separate and meet again therefore behave like two
+//! separate bodies.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -35,11 +36,11 @@ use crate::femdem::setup::Setup;
 /// Pairs per task of the thread pool.
 const CHUNK: usize = 64;
 
-/// Search distance over the mean size of the tetrahedra that can touch [-]. With this value, a search remains valid for
-/// thousands of time steps, and few pairs without contact are evaluated.
+/// Search distance, divided by the mean size of the tetrahedra that can touch [-]. With this value, a search remains
+/// valid for thousands of time steps, and few pairs without contact are evaluated.
 const SEARCH_MARGIN: f64 = 0.1;
 
-/// Tangential over normal contact stiffness [-] (Xiang, Latham and Farsi 2017).
+/// Ratio of tangential to normal contact stiffness [-] (Xiang, Latham and Farsi 2017).
 const TANGENTIAL: f64 = 2.0 / 7.0;
 
 /// Two nearby tetrahedra and the history of their contact.
@@ -66,8 +67,8 @@ struct Pair {
 pub struct Contacts {
     /// Tetrahedra with a free face, in ascending order.
     outer: Vec<u32>,
-    /// For every node copy, its group: the number of the first copy of the same mesh node that unbroken faces connect
-    /// with it.
+    /// For every node copy, the number of its group. This is the number of the first copy of the same mesh node that
+    /// unbroken faces connect with it.
     group: Vec<NodeCopy>,
     pairs: Vec<Pair>,
     /// Pairs of tetrahedra whose joint has broken since the last search, and the elastic energy of this joint [J].
@@ -123,13 +124,13 @@ impl Contacts {
         self.scalars.outdated = true;
     }
 
-    /// Adds the longest distance that any node has moved since the last call [m].
+    /// Adds to `travelled` the longest distance that any node has moved since the last call [m].
     pub fn add_travel(&mut self, distance: f64) {
         self.scalars.travelled += distance;
     }
 
     /// Adds all contact forces to the forces of the tetrahedra [N]. The nodes have moved to `position` [m] with the
-    /// velocity `velocity` [m/s] in the time `dt` [s]. `is_broken` returns true for the number of a broken face.
+    /// velocity `velocity` [m/s] in the time `dt` [s]. `is_broken(number)` is true for a broken face.
     pub fn add_forces(
         &mut self,
         setup: &Setup,

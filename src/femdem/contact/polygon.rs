@@ -18,7 +18,7 @@ const CAPACITY: usize = 10;
 pub struct Linear {
     /// Value at the first corner.
     origin: f64,
-    /// Differences of the values at the other two corners.
+    /// Values at the other two corners minus the value at the first corner.
     slope: DVec2,
 }
 
@@ -215,8 +215,8 @@ mod tests {
 
     #[test]
     fn integrals_over_a_triangle_have_their_textbook_values() {
-        // The mean of a barycentric coordinate is 1/3. The mean of a product of two is 1/6 if they are the same, else
-        // 1/12.
+        // The mean of a barycentric coordinate is 1/3. The mean of the product of two coordinates is 1/6 if both are
+        // the same, else 1/12.
         let moments = Polygon::triangle().integrate(Linear::with_values([0.0, 1.0, 0.0]));
         assert!((moments.zeroth - 1.0 / 3.0).abs() < 1e-16);
         assert!((moments.first - DVec2::new(1.0 / 6.0, 1.0 / 12.0)).length() < 1e-16);
@@ -262,7 +262,7 @@ mod tests {
     #[test]
     fn clipping_keeps_the_part_where_all_functions_are_positive() {
         let side = |a, b, c| Linear::with_values([a, b, c]);
-        // The square 1/4 < s, t < 1/2 in the triangle s + t < 1: 1/8 of the area of the triangle.
+        // The square 1/4 < s, t < 1/2 has 1/8 of the area of the triangle s + t < 1.
         let square = [side(-0.25, 0.75, -0.25), side(0.5, -0.5, 0.5), side(-0.25, -0.25, 0.75), side(0.5, 0.5, -0.5)];
         let inside = Polygon::triangle().clip(&square).unwrap();
         let one = Linear::with_values([1.0; 3]);

@@ -18,7 +18,7 @@ pub fn regular_tetrahedron(centroid: DVec3, edge: f64) -> [DVec3; 4] {
 }
 
 /// Returns a random tetrahedron of about the given size [m] around a point [m]. Its smallest height is more than a
-/// fifth of this size, so the tetrahedron is not flatter than those of a good mesh.
+/// fifth of this size, so the tetrahedron is not flatter than the tetrahedra of a good mesh.
 pub fn random_tetrahedron(random: &mut SplitMix64, about: DVec3, size: f64) -> [DVec3; 4] {
     loop {
         let vertices = [0; 4].map(|_| about + size * random_point(random));

@@ -13,7 +13,7 @@ pub struct IntactLaw<L> {
     /// Joint penalty p_0 [Pa].
     penalty: L,
     tensile: L,
-    /// 1 / (2 f_t) [1/Pa].
+    /// 1 / (2 f_t), with the tensile strength f_t [1/Pa].
     per_tensile: L,
     cohesion: L,
     friction: L,
@@ -55,7 +55,7 @@ impl<L: Lanes> IntactLaw<L> {
         let p = self.respond(stiffness, (jump[0] + jump[1]) * half, normal);
         let q = self.respond(stiffness, (jump[1] + jump[2]) * half, normal);
         let r = self.respond(stiffness, (jump[2] + jump[0]) * half, normal);
-        // Each integration point has a third of the area; each of the two corners of its edge gets half of its force.
+        // Each integration point represents a third of the area. Each end of its edge gets half of its force.
         let share = area * L::splat(1.0 / 6.0);
         IntactForces {
             forces: [(p.0 + r.0) * share, (p.0 + q.0) * share, (q.0 + r.0) * share],
@@ -63,16 +63,17 @@ impl<L: Lanes> IntactLaw<L> {
         }
     }
 
-    /// Returns the traction [Pa] for a jump of the positions [m] (eq. 2 and elastic slip), and a number that is
-    /// positive if the joint is no longer intact.
+    /// Returns the traction [Pa] for a jump of the positions [m] (eq. 2 for the opening, elastic slip), and a number
+    /// that is positive if the joint is no longer intact.
     #[inline(always)]
     fn respond(&self, stiffness: L, jump: Vectors<L>, normal: Vectors<L>) -> (Vectors<L>, L) {
         let zero = L::splat(0.0);
         let opening = jump.dot(normal);
         let slip_squared = jump.dot(jump) - opening * opening;
         let elastic = stiffness * opening;
-        // With the stiffness K = 2 f_t / delta_np and the opening delta, r = delta / delta_np is K delta / (2 f_t), and
-        // the normal stress of eq. 2, f_t (2 - r) r, is K delta (1 - r / 2).
+        // delta is the opening, delta_np the opening at peak stress, and K = 2 f_t / delta_np the stiffness. The ratio
+        // r = delta / delta_np is then K delta / (2 f_t), and the normal stress of eq. 2, f_t (2 - r) r, is
+        // K delta (1 - r / 2).
         let r = (elastic * self.per_tensile).max(zero);
         let stress = elastic - elastic * (r * L::splat(0.5));
         let strength = (self.cohesion - stress.min(self.tensile) * self.friction).max(zero);
@@ -102,8 +103,8 @@ mod tests {
         let mut random = SplitMix64::new(5);
         let (mut intact, mut damaged) = (0, 0);
         for _ in 0..2000 {
-            // Random offsets of the order of the opening at peak stress (0.17 micrometres) and of the slip at the shear
-            // strength (0.37 to 0.42 micrometres), so that some joints stay intact and others do not.
+            // The random offsets are of the order of the opening at peak stress (0.17 micrometres) and of the slip at
+            // the shear strength (0.37 to 0.42 micrometres), so that some joints stay intact and others do not.
             let mut offset = || 4e-7 * DVec3::new(random.next_share(), random.next_share(), random.next_share());
             let sides = [corners.map(|corner| corner - offset()), corners.map(|corner| corner + offset() - offset())];
             let mut state = JointState::default();

@@ -81,7 +81,7 @@ pub fn forces(law: &CohesiveLaw, area: f64, state: &mut JointState, sides: &[[DV
     for (point, [i, j]) in state.points.iter_mut().zip(ENDS) {
         let (opening, slip) = axes.split((jump[i] + jump[j]) * 0.5);
         let traction = law.respond(point, opening + state.offset, slip);
-        // Each integration point has a third of the area; each of the two corners of its edge gets half of its force.
+        // Each integration point represents a third of the area. Each end of its edge gets half of its force.
         let force = axes.join(traction.normal, traction.shear) * (area / 6.0);
         out.forces[i] += force;
         out.forces[j] += force;

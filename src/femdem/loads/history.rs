@@ -1,6 +1,6 @@
 //! Values that change with time.
 
-/// Time series of `N` values: linear between two rows, constant before the first row and after the last row.
+/// Time series of `N` values: linear between two times, constant before the first time and after the last time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History<const N: usize> {
     /// Times [s], ascending.

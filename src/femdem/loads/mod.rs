@@ -26,7 +26,7 @@ pub enum Load {
         faces: Vec<Exterior>,
         /// Force per undeformed area [Pa].
         stress: DVec3,
-        /// Factor of the stress over time [-].
+        /// Factor by which the stress is multiplied, as a function of time [-].
         factor: History<1>,
     },
     /// A pressure normal to faces.
@@ -37,7 +37,7 @@ pub enum Load {
         pressure: f64,
         /// Surface that gives area and normal: current or initial.
         on: Surface,
-        /// Factor of the pressure over time [-].
+        /// Factor by which the pressure is multiplied, as a function of time [-].
         factor: History<1>,
     },
     /// A force and a moment at a point.

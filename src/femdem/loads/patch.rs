@@ -3,17 +3,17 @@
 //!
 //! Every vertex i of the tetrahedra at the loaded faces gets a share w_i of the force. X_i is its position in the
 //! undeformed body, x_i its current position, and P the given point of action in the undeformed body. The shares
-//! satisfy sum w_i = 1 and sum w_i X_i = P. For any deformation, their resultant is the given force. It acts at the
-//! point p = sum w_i x_i of the deformed body. The shares A_i / A of a uniform stress on the loaded faces
-//! are corrected by the smallest linear function of the position that moves the point of action to P:
+//! satisfy sum w_i = 1 and sum w_i X_i = P. For any deformation, the resultant of the forces on the vertices is the
+//! given force. It acts at the point p = sum w_i x_i of the deformed body. The first term of w_i is the share A_i / A
+//! of a uniform stress on the loaded faces. The second term moves the point of action to P:
 //!
 //! w_i = A_i / A + m_i (X_i - C) . S^-1 (P - sum A_j X_j / A),  S = sum m_i (X_i - C)(X_i - C)^T
 //!
 //! A_i is a third of the area of the loaded faces at vertex i, and A the area of all loaded faces. The weight m_i is a
 //! quarter of the volume of the tetrahedron of vertex i, divided by the volume of all tetrahedra at the loaded faces. C
 //! and c are the centroids, weighted by m_i, in the undeformed and in the current body. A moment M is applied as the
-//! forces m_i theta x (x_i - c) (cross product), with theta = J^-1 M. J is the inertia tensor of the weights m_i at the
-//! positions x_i.
+//! forces m_i theta x (x_i - c) (cross product), with theta = J^-1 M. J is the inertia tensor about c of the weights
+//! m_i at the positions x_i.
 
 use glam::{DMat3, DVec3};
 use parry3d_f64::query::PointQuery;
@@ -72,8 +72,8 @@ pub struct NearFaces {
     pub edge: f64,
 }
 
-/// Finds the exterior faces of a body whose centres lie within a radius [m] around a point [m]. If there is no such
-/// face, returns the nearest face.
+/// Finds those exterior faces of a body that have their centre within a radius [m] around a point [m]. If there is no
+/// such face, returns the nearest face.
 pub fn faces_near(mesh: &PreparedMesh, body: usize, point: DVec3, radius: f64) -> NearFaces {
     let tets = &mesh.mesh.bodies[body].tets;
     let own = mesh.faces.exteriors.iter().filter(|face| tets.contains(&(face.tet as usize)));

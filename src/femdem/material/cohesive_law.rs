@@ -5,9 +5,9 @@
 //! | point | choice |
 //! | --- | --- |
 //! | initial stiffness | p_0 / h in tension, sliding and compression, with the joint penalty p_0 [Pa] and the mean edge length h of the joint. The opening at the peak stress f_t is then delta_np = 2 h f_t / p_0 |
-//! | softening range | `Range::Exact`: the area under the traction-separation curve is G_f. `Range::Published`: max(2 delta_np, 3 G_f / f_t), which dissipates at least 1.16 G_f after the peak |
+//! | softening range | `Range::Exact`: the area under the traction-separation curve is the fracture energy G_f. `Range::Published`: max(2 delta_np, 3 G_f / f_t), which dissipates at least 1.16 G_f after the peak |
 //! | unloading and reloading | along the secant to the origin; damage never decreases |
-//! | sliding | return mapping to the yield stress f_s z(D), with the shear strength f_s. The elastic part of the slip has the stiffness p_0 / h; the remaining slip is plastic and causes damage. The parabola of eq. 2 is used in tension only: in sliding, it would create energy when f_s changes with the normal stress |
+//! | sliding | return mapping to the yield stress f_s z(D), with the shear strength f_s and the softening curve z of the damage D (eq. 3). The elastic part of the slip has the stiffness p_0 / h; the remaining slip is plastic and causes damage. The parabola of eq. 2 is used in tension only: in sliding, it would create energy when f_s changes with the normal stress |
 //! | mixed mode | the damage D of eq. 4 reduces both the tensile and the shear strength |
 //! | snap-back | the softening range in sliding is long enough that the shear stress never falls more steeply than p_0 / h. Where this limit applies, a joint dissipates more than the fracture energy in sliding, G_fII |
 //!
@@ -22,7 +22,7 @@ pub enum Range {
     /// The area under the traction-separation curve is the fracture energy G_f.
     #[default]
     Exact,
-    /// max(2 delta_np, 3 G_f / f_t), as in the published programs; see the table above.
+    /// max(2 delta_np, 3 G_f / f_t), as in the published programs; see the comment of this module.
     Published,
 }
 
@@ -167,7 +167,7 @@ impl CohesiveLaw {
         (PointState { opening, plastic, ..PointState::default() }, opening)
     }
 
-    /// Computes the traction at an opening delta_n and a slip delta_s [m], and updates the state of the point.
+    /// Computes the traction at an opening [m] and a slip [m], and updates the state of the point.
     pub fn respond(&self, point: &mut PointState, opening: f64, slip: [f64; 2]) -> Traction {
         let old = *point;
         let opened = ((opening - self.peak_opening) / self.opening_range).max(0.0);
@@ -276,9 +276,9 @@ impl CohesiveLaw {
         (work + stored(old, from) - stored(new, to)).max(0.0)
     }
 
-    /// Returns the dissipated work of the shear stress between two calls of [`Self::respond`] [J/m2]: the mean stress
-    /// times the plastic slip. This product can be negative if the stress changes sign between the
-    /// calls. It is then set to zero, and the energy balance has an error of the same amount.
+    /// Returns the dissipated work of the shear stress between two calls of [`Self::respond`] [J/m2]: the mean of the
+    /// stresses at the two calls, times the plastic slip. This product can be negative if the stress changes sign. It
+    /// is then set to zero, and the energy balance has an error of the same amount.
     fn dissipated_shear(&self, old: &PointState, new: &PointState) -> f64 {
         let (before, now) = (old.elastic_slip(), new.elastic_slip());
         let along = |k: usize| 0.5 * (before[k] + now[k]) * (new.plastic[k] - old.plastic[k]);

@@ -11,7 +11,7 @@ mod softening;
 /// Elasticity, viscosity and density of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elastic {
-    /// Density rho_0 [kg/m3].
+    /// Density rho [kg/m3].
     pub density: f64,
     /// Young's modulus E [Pa].
     pub young_modulus: f64,

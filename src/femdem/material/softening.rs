@@ -44,7 +44,7 @@ mod tests {
             steepest = steepest.max((from - to) * f64::from(count));
         }
         println!("area {area:.10}, steepest {steepest:.6}");
-        // Tolerances: rounding of the constants `AREA` and `STEEPEST`, and differences over 1/20,000.
+        // Tolerances: rounding of the constants `AREA` and `STEEPEST`, and the error of differences over 1/20,000 of D.
         assert!((area - AREA).abs() < 1e-7);
         assert!((steepest - STEEPEST).abs() < 1e-3);
     }

@@ -97,8 +97,8 @@ impl Lattice {
         }
     }
 
-    /// Adds one tetrahedron for each edge of each side of the cell: the two ends of the edge, the centre of the side
-    /// and the centre of the cell.
+    /// Adds one tetrahedron for each edge of each side of the cell. Its corners are the two ends of the edge, the
+    /// centre of the side and the centre of the cell.
     fn cut_around_centre(&mut self, origin: [usize; 3]) {
         let centre = origin.map(|index| index + 1);
         for axis in 0..3 {

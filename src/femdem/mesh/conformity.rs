@@ -15,8 +15,8 @@ use super::defect::{MeshDefect, Spot};
 use super::faces::{Exterior, Faces};
 use super::{Body, Mesh};
 
-/// Distance up to which a node counts as lying on a face, over the shortest edge of the surface [-]. This value is far
-/// above the rounding errors of coordinates, and far below any gap that a mesh can resolve.
+/// Distance up to which a node counts as lying on a face, divided by the shortest edge of the surface [-]. This value
+/// is far above the rounding errors of coordinates, and far below any gap that a mesh can resolve.
 const TOUCHING: f64 = 1e-6;
 
 /// Marks a node that no body has used yet.

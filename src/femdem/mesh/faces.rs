@@ -136,7 +136,7 @@ fn sorted_keys(mesh: &Mesh) -> Vec<u128> {
     keys
 }
 
-/// Returns for every face the same face of the tetrahedron on its other side; [`NONE`] if there is no tetrahedron.
+/// For every face, returns the number of the same face in the neighbouring tetrahedron; [`NONE`] without a neighbour.
 fn partners(mesh: &Mesh, keys: &[u128]) -> Result<Vec<u32>, MeshDefect> {
     let mut partner = vec![NONE; keys.len()];
     for same in keys.chunk_by(|a, b| a >> 32 == b >> 32) {
@@ -261,7 +261,8 @@ mod tests {
                 let way = mesh.centroid(tets[1] as usize) - mesh.centroid(tets[0] as usize);
                 prop_assert!(area(positions(&mesh, tets[0], nodes[0])).dot(way) > 0.0);
             }
-            // Gauss's theorem: on a closed surface, the area vectors A add up to 0, and x.A to three times the volume.
+            // Gauss's theorem: on a closed surface, the area vectors A of the faces add up to 0. The products x.A, with
+            // a point x of each face, add up to three times the volume.
             let outside = faces.exteriors.iter().map(|face| positions(&mesh, face.tet, face.nodes));
             let (mut sum, mut volume) = (DVec3::ZERO, 0.0);
             for corners in outside {

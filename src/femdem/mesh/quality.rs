@@ -9,8 +9,9 @@ use super::defect::{MeshDefect, Spot};
 use super::faces::LOCAL_FACES;
 use super::{Body, Mesh};
 
-/// A tetrahedron is flat if its volume over the cube of its longest edge is at most this value [-]. Its height is then
-/// about 1e-9 of its length, so rounding of the coordinates decides on which side of the face the fourth corner lies.
+/// A tetrahedron is flat if its volume, divided by the cube of its longest edge, is at most this value [-]. Its height
+/// is then about 1e-9 times its longest edge, so rounding of the coordinates decides on which side of the face the
+/// fourth corner lies.
 const FLAT: f64 = 1e-10;
 
 /// If the angle between two faces of a tetrahedron is below this limit [deg], the program warns. Such slivers have an
@@ -86,7 +87,7 @@ fn check_volumes(mesh: &Mesh, body: &Body) -> Result<(), MeshDefect> {
     }
 }
 
-/// Returns the volume over the cube of the longest edge [-]; 0.12 for a regular tetrahedron.
+/// Returns the volume divided by the cube of the longest edge [-]; 0.12 for a regular tetrahedron.
 fn relative_volume(corners: [DVec3; 4]) -> f64 {
     triple_product(corners) / 6.0 / edges(corners).into_iter().fold(0.0, f64::max).powi(3)
 }

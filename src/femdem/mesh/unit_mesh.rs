@@ -5,15 +5,15 @@ use glam::{DMat3, DQuat, DVec3};
 use crate::femdem::mesh::{Body, Mesh, PreparedMesh, TriangleSet};
 use crate::geometry::armour_unit::ArmourUnit;
 
-/// Largest allowed distance of a surface node of the mesh from the surface of the unit, over the unit's height [-].
-/// Faces of coarse meshes cut across round legs, but their nodes lie on the surface.
+/// Largest allowed distance of a surface node of the mesh from the surface of the unit, divided by the height of the
+/// unit [-]. Faces of coarse meshes cut across round legs, but the nodes of these faces lie on the surface.
 const OFF_SURFACE: f64 = 0.02;
 
 /// Largest allowed relative difference in volume between mesh and unit [-]. Coarse meshes of units with round legs have
 /// a few per cent less volume than the unit.
 const OFF_VOLUME: f64 = 0.06;
 
-/// Mesh of one unit in body axes, at the size of the case [m].
+/// Mesh of one unit in body axes [m], with the size of the unit in the case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnitMesh {
     mesh: Mesh,
@@ -30,7 +30,7 @@ pub struct Pose {
     pub rotation: DQuat,
     /// Position of the origin of the body axes [m].
     pub position: DVec3,
-    /// Factor on the lengths of the mesh [-].
+    /// Factor by which the lengths of the mesh are multiplied [-].
     pub scale: f64,
 }
 

@@ -150,7 +150,8 @@ impl RigidBody {
                 * (impulse.force.dot(before.velocity + after.velocity)
                     + impulse.torque.dot(before.angular_velocity + after.angular_velocity));
         }
-        // The kinetic energy follows from the velocities half a time step before and after, as for nodes.
+        // The kinetic energy at the start of the time step follows from the velocities half a time step before and
+        // after this start, as for the nodes of deformable bodies.
         self.kinetic = 0.5 * self.mass * before.velocity.dot(motion.velocity)
             + 0.5 * before.angular_velocity.dot(motion.angular_momentum);
         motion.centre = centre + motion.velocity * dt;
@@ -194,7 +195,8 @@ impl RigidBody {
 fn inertia(corners: &[DVec3; 4], mass: f64, about: DVec3) -> DMat3 {
     let outer = |v: DVec3| DMat3::from_cols(v * v.x, v * v.y, v * v.z);
     let arms = corners.map(|corner| corner - about);
-    // Integral of x x^T over a tetrahedron: m/20 (sum x_i x_i^T + (sum x_i)(sum x_i)^T).
+    // The integral of rho x x^T over a tetrahedron with the density rho, the mass m and the corners x_i is
+    // m/20 (sum x_i x_i^T + (sum x_i)(sum x_i)^T).
     let second = arms.iter().fold(outer(arms.iter().sum()), |sum, arm| sum + outer(*arm)) * (mass / 20.0);
     DMat3::IDENTITY * (second.x_axis.x + second.y_axis.y + second.z_axis.z) - second
 }

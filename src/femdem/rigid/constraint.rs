@@ -1,14 +1,14 @@
 //! Rigid bodies with prescribed velocities at some of their points.
 //!
 //! Each prescribed velocity component of a point gives one equation c . u = prescribed component. The vector u contains
-//! the velocity and the angular velocity of the body; the row c depends on the position of the point. Equations that
+//! the velocity and the angular velocity of the body; the vector c depends on the position of the point. Equations that
 //! depend linearly on earlier equations are dropped, so at most six remain. The constraint impulse changes u so that
 //! all remaining equations hold (Gauss's principle of least constraint).
 
 use glam::{DMat3, DVec3};
 
-/// A row is dropped if its part that is independent of earlier rows is shorter than this share of the row [-]. The
-/// value is far above rounding and far below any effective constraint.
+/// A row is dropped if its part that is independent of earlier rows is shorter than this share of the row [-]. This
+/// value is far above rounding errors and far below the share of any constraint that has an effect.
 const INDEPENDENT: f64 = 1e-6;
 /// Number of degrees of freedom of a body.
 const FREEDOMS: usize = 6;

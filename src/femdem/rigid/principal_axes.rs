@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 /// Number of sweeps; each sweep has one rotation in each of the three coordinate planes. Off-diagonal elements converge
-/// quadratically, so six sweeps would be enough.
+/// quadratically to zero, so six sweeps would be enough.
 const SWEEPS: usize = 12;
 
 /// Returns the principal values and axes of a symmetric matrix; the axes are columns of a right-handed matrix.

@@ -17,12 +17,13 @@ use super::World;
 use crate::femdem::assembly::nodes::Nodes;
 use crate::femdem::setup::{Constraint, Setup};
 
-/// Limit of the nodal speed over the celerity of longitudinal waves [-]. The expected speed is added to the limit. If
-/// nodes move at the celerity relative to each other, strains are of order one, and the material law is not valid.
+/// Limit of the nodal speed, divided by the celerity of longitudinal waves [-]. The expected speed is added to the
+/// limit. If nodes move at the celerity relative to each other, strains are of order one, and the material law is not
+/// valid.
 pub const SPEED: f64 = 2.0;
 
-/// Limit of the distance of a node from the middle of the mesh, over the diagonal of the mesh [-]. Fragments at this
-/// distance can no longer touch other fragments.
+/// Limit of the distance of a node from the middle of the mesh, divided by the diagonal of the mesh [-]. Fragments at
+/// this distance can no longer touch other fragments.
 pub const REACH: f64 = 50.0;
 
 /// Limit of the overlap of two tetrahedra [-] as in
@@ -72,7 +73,7 @@ pub enum StepError {
     TooDeep {
         /// Numbers of the tetrahedra.
         tets: [u32; 2],
-        /// Overlap over the volume of the smaller tetrahedron [-].
+        /// Overlap, divided by the volume of the smaller tetrahedron [-].
         share: f64,
         /// Time [s].
         time: f64,

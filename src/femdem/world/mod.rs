@@ -10,8 +10,8 @@
 //! | `snapshot` | saves and restores the state |
 //!
 //! A time step has four loops: over joints, tetrahedra, contacts and nodes. Each item of a loop writes only its own
-//! values, so results are bitwise equal for any number of threads. Velocities refer to half a time step
-//! before the time of the positions (central differences; eqs. 9 and 10).
+//! values, so results are bitwise equal for any number of threads. Velocities refer to half a time step before the time
+//! of the positions (central differences; eqs. 9 and 10).
 
 use glam::DVec3;
 

@@ -41,8 +41,9 @@ impl World {
     fn break_joint(&mut self, joint: &DamagedJoint) {
         let number = joint.interface as usize;
         // A joint that breaks dissipates its elastic energy. Its last forces were computed at the start of this time
-        // step. In central differences, they act until half a time step later. A joint that is crushed fast receives or
-        // releases much energy in this time. If it springs back, the dissipated energy can even be negative.
+        // step. In central differences, these forces act until half a time step after this start. A joint that is
+        // crushed fast receives or releases much energy in this time. If it springs back, the dissipated energy can
+        // even be negative.
         let last_work = 0.5 * self.dt * joints::power_on(joint, &self.setup, &self.tets, &self.nodes);
         let stored = self.joints.damaged_energy(joint, &self.setup) + last_work;
         self.dissipated.fracture += joint.dissipated + stored;
@@ -61,8 +62,8 @@ impl World {
         }
     }
 
-    /// Returns the tied faces at which the mean stress of the two tetrahedra has reached the strength (eq. 1), each
-    /// with the joint state that carries this stress.
+    /// Returns the tied faces that have reached their strength (eq. 1). The stress at a face is the mean of the
+    /// stresses in its two tetrahedra. Each face is returned with the joint state that carries this stress.
     fn faces_beyond_strength(&self) -> Vec<(usize, JointState)> {
         let Self { joints, setup, tets, nodes, .. } = self;
         let strained = &self.deformation.strained;

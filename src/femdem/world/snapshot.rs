@@ -1,4 +1,4 @@
-//! Saves and restores the state of a world, bit by bit.
+//! Saves and restores the state of a world without any change, not even of the last bit.
 //!
 //! A snapshot contains positions, velocities, the nodes at the vertices, bonds and states of joints, broken faces, the
 //! history of contacts, and the dissipated energies. Shapes, masses, constraints and node copies follow from the setup.

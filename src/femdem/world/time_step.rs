@@ -1,11 +1,11 @@
 //! The limit of the time step.
 //!
-//! With lumped masses, the largest angular frequency omega of a mesh is at most the largest angular frequency of any of
-//! its elements as a free body, with its own share of the nodal masses (Irons). Joints and contacts act as springs at
-//! the vertices of a tetrahedron. They increase omega^2 by at most 2 k / m. m is the mass at a vertex, and k is the
-//! stiffness of the joints at a vertex or of the contact there, whichever is larger. The limit of the time step for
-//! central differences is 2 / omega. With the viscous damping rate gamma and xi = gamma / (2 omega), it is
-//! (2 / omega) (sqrt(1 + xi^2) - xi).
+//! With lumped masses, each element of a mesh has its own share of the nodal masses. No angular frequency of the mesh
+//! exceeds omega, the largest angular frequency of all its elements as separate free bodies (Irons). Joints and
+//! contacts act as springs at the vertices of a tetrahedron. They increase omega^2 by at most 2 k / m. m is the mass at
+//! a vertex, and k is the stiffness of the joints at a vertex or of the contact there, whichever is larger. The limit
+//! of the time step for central differences is 2 / omega. With the viscous damping rate gamma and
+//! xi = gamma / (2 omega), the limit is (2 / omega) (sqrt(1 + xi^2) - xi).
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -70,9 +70,9 @@ pub fn element_damping_rate(shape: &Shape, elastic: &Elastic) -> f64 {
 
 /// Returns the contact stiffness at a vertex of a tetrahedron whose largest face is in contact [N/m].
 ///
-/// The contact potential rises from 0 to 1 over a quarter of the height H. Two tetrahedra of this height,
-/// whose faces lie on each other with the overlap depth d, have the energy p 4 d^2 / H and the stiffness 8 p / H per
-/// unit of area, with the penalty p. Each vertex gets a third of the area of the face.
+/// The contact potential rises from 0 to 1 over a quarter of the height H of the tetrahedron. Two tetrahedra of this
+/// height, whose faces lie on each other with the overlap depth d, have the energy 4 p d^2 / H and the stiffness
+/// 8 p / H per unit of area, with the contact penalty p. Each vertex gets a third of the area of the face.
 pub fn contact_stiffness(shape: &Shape, penalty: f64) -> f64 {
     // For the face opposite to vertex k, with the area A, |grad N_k| = 1 / H. V / H is A / 3, because V = A H / 3.
     let steepest = shape.gradients().into_iter().map(|gradient| gradient.length()).fold(0.0, f64::max);

@@ -45,8 +45,8 @@ pub fn blocks(size_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
 /// Critical sections of a Core-Loc of size C [m], where its members leave the central block.
 pub fn sections(size_m: f64) -> Vec<Section> {
     let width = WIDTH[0] * size_m;
-    // The sections of both upright members lie in the same planes. The reach excludes loads on the other member: 0.75
-    // widths is a little more than half a diagonal of the section (0.71 widths).
+    // The sections of both upright members lie in the same planes. The reach excludes loads on the other member. It is
+    // 0.75 widths, a little more than half a diagonal of the section (0.71 widths).
     let sections = |member: &Member| member.sections(0.5 * width).map(|section| section.with_reach(0.75 * width));
     members(size_m).iter().flat_map(sections).collect()
 }

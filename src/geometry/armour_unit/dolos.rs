@@ -1,11 +1,11 @@
 //! Dolos: a stem with two flukes at its ends, at right angles to each other (Merrifield 1974).
 //!
-//! Dimensions after Burcharth et al. (1992), relative to the height H. H is the length of a fluke and the length of the
-//! unit along its stem. The stem and the middle of the flukes have the width r (waist ratio); the ends of the flukes
-//! have the width 0.20. The chamfers are 0.056 at the fluke ends and along the stem. Assumption: the chamfer of a fluke
-//! is proportional to its local width. The volume agrees with the published formula, 0.675 r^1.285 H^3, within 0.5 %
-//! from r = 0.34 to 0.38 (0.9 % at 0.32; see the tests of `armour_unit`). Haunches between stem and fluke, as in some
-//! designs, are neglected.
+//! The dimensions follow Burcharth et al. (1992) and are relative to the height H. H is the length of a fluke and the
+//! length of the unit along its stem. The stem and the middle of the flukes have the width r (waist ratio); the ends of
+//! the flukes have the width 0.20. The chamfers are 0.056 at the fluke ends and along the stem. Assumption: the chamfer
+//! of a fluke is proportional to its local width. The volume agrees with the published formula, 0.675 r^1.285 H^3,
+//! within 0.5 % from r = 0.34 to 0.38 (0.9 % at 0.32; see the tests of `armour_unit`). Haunches between stem and fluke,
+//! as in some designs, are neglected.
 
 use glam::DVec3;
 
@@ -75,15 +75,15 @@ mod tests {
     fn dolos_volume_matches_the_published_formula() {
         for waist in [0.32, 0.34, 0.36, 0.38] {
             let unit = ArmourUnit::dolos(1.0, waist, 0.03).unwrap();
-            // Formula of Burcharth et al. (1992).
+            // Volume by Burcharth et al. (1992).
             let published = 0.675 * f64::powf(waist, 1.285);
             println!("r = {waist}: {} H^3, {published}", volume(&unit));
-            // The error must be at most 0.5 % for r >= 0.34, and at most 0.9 % at the lower end of the range of the
-            // formula.
+            // The error of the volume must be at most 0.5 % for r >= 0.34, and at most 0.9 % at the lower end of the
+            // formula's range.
             let tolerance = if waist < 0.34 { 0.009 } else { 0.005 };
             assert!((volume(&unit) / published - 1.0).abs() < tolerance, "{waist} {}", volume(&unit));
         }
-        // The Shore Protection Manual gives 0.16 H^3 for r = 0.32.
+        // The Shore Protection Manual gives the volume 0.16 H^3 for r = 0.32.
         assert!((volume(&ArmourUnit::dolos(2.0, 0.32, 0.03).unwrap()) / 8.0 / 0.16 - 1.0).abs() < 0.02);
     }
 }

@@ -1,9 +1,9 @@
 //! Grooved cube (Antifer block): a slightly tapered cube with a vertical groove in the middle of each side.
 //!
-//! Assumed dimensions relative to the height: width 1.086 at the foot and 1.005 at the top, groove radius 0.12. These
-//! are the usual proportions of Antifer blocks (Frens 2007, relative to the cube root of the volume). This cube root
-//! practically equals the height H, because the volume is 1.003 H^3. Convex blocks cannot form a half-round groove. A
-//! rectangular groove of the same width and sectional area replaces it.
+//! Divided by the height, the width is 1.086 at the foot and 1.005 at the top, and the groove radius 0.12 (assumed).
+//! These are the usual proportions of Antifer blocks (Frens 2007, who divides by the cube root of the volume). This
+//! cube root practically equals the height H, because the volume is 1.003 H^3. Convex blocks cannot form a half-round
+//! groove. A rectangular groove of the same width and sectional area replaces it.
 
 use std::f64::consts::PI;
 

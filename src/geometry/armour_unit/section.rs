@@ -43,8 +43,9 @@ impl Section {
         Self { reach, ..self }
     }
 
-    /// Nominal stress |N| / A + |M| / W [Pa] of a force [N] at a point [m]; `None` if the section carries no load at
-    /// this point. If a rectangle bends about an oblique axis, the stress at its corner is up to 41 % higher.
+    /// Nominal stress |N| / A + |M| / W [Pa] of a force [N] at a point [m], with the normal force N and the bending
+    /// moment M in the section; `None` if the section carries no load at this point. If a rectangle bends about an
+    /// oblique axis, the stress at its corner is up to 41 % higher.
     pub fn stress(&self, point: DVec3, force: DVec3) -> Option<f64> {
         let arm = point - self.centre;
         let along = arm.dot(self.outwards);
@@ -66,8 +67,8 @@ mod tests {
         let [b, l, f] = [0.2, 1.0, 3e3];
         let root = Section::chamfered(DVec3::ZERO, DVec3::X, [b, b], 0.0);
         let bent = root.stress(DVec3::X * l, DVec3::Z * f).unwrap();
-        // The stress is 6 F l / b^3 in bending, and F / b^2 in tension along the axis. 1e-12 allows for rounding
-        // errors.
+        // A force F at the distance l causes the stress 6 F l / b^3 in bending, or F / b^2 in tension along the axis.
+        // 1e-12 allows for rounding errors.
         assert!((bent / (6.0 * f * l / b.powi(3)) - 1.0).abs() < 1e-12);
         let pulled = root.stress(DVec3::X * l, DVec3::X * f).unwrap();
         assert!((pulled / (f / (b * b)) - 1.0).abs() < 1e-12);

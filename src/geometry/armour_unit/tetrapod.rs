@@ -1,9 +1,9 @@
 //! Tetrapod: four truncated cones on the axes of a tetrahedron (Danel & Greslou 1962).
 //!
 //! Each cone is extended to the centre of the unit. A ray from the centre along the unit vector u then leaves the unit
-//! only once, at r(u): the largest distance at which the ray leaves one of the cones. Two legs meet at a crease, where
-//! u has the same angle to both axes, in a plane through the centre. Each leg is therefore meshed separately, with
-//! exact tip disc, rim and crease, and the legs are joined at the creases.
+//! only once, at the largest distance at which it leaves one of the cones. Two legs meet at a crease. There, u has the
+//! same angle to the axes of both legs, so the crease lies in a plane through the centre. Each leg is therefore meshed
+//! separately, with exact tip disc, rim and crease, and the legs are joined at the creases.
 
 use std::f64::consts::TAU;
 

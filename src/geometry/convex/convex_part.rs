@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn nearest_point_of_a_cone_satisfies_the_support_condition() {
         let part = ConvexPart::cone(cone(), 0.0);
-        // p is nearest to q if p is a support point in the direction q - p. 1e-12 allows for rounding errors.
+        // A point p of the core is nearest to q if p is a support point in the direction q - p. 1e-12: rounding errors.
         for i in 0..200 {
             let (a, b) = (0.7 * i as f64, 0.37 * i as f64);
             let q = DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos()) * 1.2;

@@ -20,8 +20,8 @@ pub enum PolyhedronError {
     TooManyFaces,
 }
 
-/// Largest number of faces of a hull. The contact search allows about the same number of corners plus edges. Its cost
-/// grows with the square of this number.
+/// Largest number of faces of a hull. The contact search allows about the same number of corners plus edges. The cost
+/// of the search grows with the square of this number.
 const MAX_FACES: usize = 1000;
 
 /// Distance below which two corners are merged, relative to the size of the polyhedron [-].

@@ -1,8 +1,8 @@
 //! Closed surface of the union of convex polyhedra that overlap or share faces.
 //!
-//! The part of each face outside all other blocks is kept: the planes of each block split the face, and the inner piece
-//! is dropped. Where faces of two blocks coincide, only the face of the first block is kept. A corner that lies on the
-//! edge of another piece is inserted into this edge, so every edge has exactly two triangles.
+//! The part of each face outside all other blocks is kept: the planes of each block split the face, and the piece
+//! inside the block is dropped. Where faces of two blocks coincide, only the face of the first block is kept. A corner
+//! that lies on the edge of another piece is inserted into this edge, so every edge has exactly two triangles.
 
 use glam::DVec3;
 
@@ -78,7 +78,8 @@ fn triangulate(pieces: &[Vec<DVec3>], tolerance: f64) -> (Vec<DVec3>, Vec<[u32; 
         if whole.len() == ring.len() {
             triangles.extend(whole[1..].windows(2).map(|pair| [whole[0] as u32, pair[0] as u32, pair[1] as u32]));
         } else {
-            // With points on the edges, a fan from a corner would have triangles without area. Start from the middle.
+            // With points on the edges, a triangle fan from a corner would have triangles without area. Therefore the
+            // fan starts from the middle.
             vertices.push(ring.iter().map(|&v| corners[v]).sum::<DVec3>() / ring.len() as f64);
             let middle = (vertices.len() - 1) as u32;
             let next = whole.iter().cycle().skip(1);
@@ -144,7 +145,7 @@ mod tests {
 
     #[test]
     fn common_faces_are_removed() {
-        // Three cases: an equal common face, a smaller block on top, and coplanar outer faces.
+        // The three cases are: two blocks with an equal common face, a smaller block on top, coplanar outer faces.
         let side_by_side = [block([0.0; 3], [1.0; 3]), block([1.0, 0.0, 0.0], [2.0, 1.0, 1.0])];
         assert!((volume(&side_by_side) - 2.0).abs() < 1e-12);
         let on_top = [block([0.0; 3], [1.0; 3]), block([0.25, 0.25, 1.0], [0.5, 0.5, 2.0])];

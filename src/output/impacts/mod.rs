@@ -7,9 +7,9 @@
 //! | `pressure` | water pressure at the boundary particles of the unit; NaN if unknown |
 //!
 //! Units count from 1 as in the tables. `partner_kind` is 0 for a unit, 1 for the bed profile, 2 for the terrain
-//! surface, 3 for a wall. `partner_number` is the number of the unit; on the bed, 2 k for strip k or 2 k + 1 for the
-//! convex corner after strip k; on the terrain, the number of the triangle, ridge or corner; for walls, 0 at y = 0,
-//! 1 at y = width, 2 seaward, 3 shoreward. All these numbers except those of units count from 0.
+//! surface, 3 for a wall. `partner_number` is the number of the unit; for the bed, 2 k for segment k of the profile or
+//! 2 k + 1 for the convex corner after segment k; for the terrain, the number of the triangle, ridge or corner; for a
+//! wall, 0 at y = 0, 1 at y = width, 2 seaward, 3 shoreward. All these numbers except those of units count from 0.
 
 mod columns;
 
@@ -202,7 +202,8 @@ const NO_BODY: BodyState = BodyState {
     angular_velocity: DVec3::NAN,
 };
 
-/// Kind, number, periodic image, and part or end of the contact partner; one value for each column in [`PARTNER`].
+/// Kind, number, periodic image of the contact partner, and `part` or `end` of its `Feature`; in the order of
+/// [`PARTNER`].
 type PartnerNumbers = [i64; 4];
 const PARTNER: [&str; 4] = ["partner_kind", "partner_number", "partner_image", "partner_part"];
 

@@ -233,8 +233,8 @@ impl PolyDataSeries {
         self.file.flush()
     }
 
-    /// Writes the cells of this step that the file does not have yet; returns the row where the connectivity of this
-    /// step starts.
+    /// Writes the cells of this step that the file does not have yet; returns the row of `Connectivity` where this step
+    /// starts.
     fn write_cells(&mut self, root: &Group, points: usize, triangles: &[[u32; 3]], count: usize) -> Hdf5Result<usize> {
         let group = root.group(TOPOLOGIES[self.cells.topology()])?;
         let offsets = group.dataset("Offsets")?;

@@ -65,7 +65,7 @@ pub fn impact_and_end(times_s: &[f64], impact_s: Option<f64>, initiations: &[Ini
     with_cracks(ends(times_s, impact_s), times_s, initiations)
 }
 
-/// Returns the first moment after the impact and the last moment, or only one if both are the same.
+/// Returns the first moment after the impact and the last moment, or only one moment if both are the same.
 fn ends(times_s: &[f64], impact_s: Option<f64>) -> Vec<(usize, Why)> {
     let impact = first_after(times_s, impact_s.unwrap_or(0.0)).map(|frame| (frame, Why::Impact));
     let end = times_s.len().checked_sub(1).map(|last| (last, Why::End));

@@ -38,8 +38,9 @@ pub struct StressScene {
 
 impl StressScene {
     /// Creates the scene of a run, with all shown bodies in the view. The colour scale ends at twice the tensile
-    /// strength, because the stress exceeds the strength where no element face, along which a crack can open, is normal
-    /// to this stress. If no body has a strength, the scale ends at the largest stress at the recorded times `frames`.
+    /// strength: cracks open only along element faces, so the stress exceeds the strength where no element face is
+    /// normal to this stress. If no body has a strength, the scale ends at the largest stress at the recorded times
+    /// `frames`.
     ///
     /// # Errors
     /// If the files cannot be read.

@@ -106,7 +106,7 @@ impl UnitScene {
         // The back faces of the units hide other bodies behind them.
         for (_, corners) in outside.iter().enumerate().filter(|(face, _)| is_unit(*face)) {
             if !self.view.faces(normal(corners)) {
-                // A face in contact may lie slightly behind the surface of the other body.
+                // A face in contact may lie slightly behind the surface of the other body, so it is drawn 3 px nearer.
                 let nearer = project(corners).map(|[x, y, depth]| [x, y, depth - 3.0 / self.view.scale]);
                 canvas.fill(nearer, mixed(PAPER, UNIT, 0.55));
             }

@@ -130,7 +130,7 @@ mod tests {
         canvas.fill(triangle(3.0), [0.0, 0.0, 1.0]);
         assert_eq!(canvas.colour[0], [0.0, 1.0, 0.0]);
         assert_eq!(canvas.colour[399], [1.0; 3]);
-        // The triangle covers half of the 400 samples. Some of the samples on its edge count, too.
+        // The triangle covers half of the 400 samples. Some of the samples on the edge of the triangle count, too.
         let mut inside = 0;
         canvas.visit(triangle(0.0), |_, _| inside += 1);
         assert!((190..=210).contains(&inside), "{inside}");

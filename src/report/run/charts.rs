@@ -9,8 +9,8 @@ use crate::output::Table;
 const WIDE: [f64; 2] = [920.0, 300.0];
 /// Size of a chart with half the width of the page, so that two charts are side by side [px].
 const HALF: [f64; 2] = [452.0, 250.0];
-/// Up to this number of units, each unit has its own colour. For more units, all odd units have one colour and all even
-/// units another colour.
+/// If a chart has at most this number of units, each unit has its own colour. Otherwise all odd units have one colour
+/// and all even units another colour.
 const COLOURED_UNITS: usize = 6;
 
 /// Bar chart of the displacement of each unit, with damage distance and mean displacement.
@@ -75,8 +75,8 @@ fn unit_lines(motions: &[UnitMotion], points: impl Fn(&UnitMotion) -> Vec<[f64; 
     lines
 }
 
-/// Charts of the horizontal water force, the vertical water force and the contact force: mean over the units. If there
-/// are few units, the charts also show each unit; if there are many, a band shows the standard deviation.
+/// Charts of the horizontal water force, the vertical water force and the contact force. Each shows the mean over the
+/// units and, if there are few units, each unit. If there are many, a band shows the standard deviation.
 pub fn forces(run: &RunFolder) -> [String; 3] {
     let force = |title: &str, label: &str, colour: usize, histories: Vec<Vec<f64>>, size| {
         let Some(first) = run.motions.first() else { return String::new() };

@@ -13,8 +13,8 @@ use crate::output::{OutputError, WaterSnapshots};
 const BESIDE_MOUND_M: f64 = 0.5;
 /// A corner of the bed profile belongs to the mound if its distance from the units is less than this value [m].
 const MOUND_REACH_M: f64 = 1.5;
-/// Time from the peak of the water force to an additional moment [s]. The report shows this moment if the snapshot at
-/// the peak speed of the units is already chosen.
+/// Time between the peak of the water force and an additional moment [s]. The report shows this moment if the snapshot
+/// at the peak speed of the units is already chosen for another reason.
 const LATER_S: f64 = 0.5;
 /// Share of the water particles that are below the upper edge of the window [-]; the particles above it are spray.
 const UNDER_EDGE: f64 = 0.999;

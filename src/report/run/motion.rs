@@ -83,7 +83,7 @@ impl Pose {
     pub fn place(&self, body: [f64; 3]) -> [f64; 3] {
         let [x, y, z, w] = self.orientation;
         let q = [x, y, z];
-        // v + 2 q x (q x v + w v)
+        // The quaternion with the vector part q and the scalar part w rotates v to v + 2 q x (q x v + w v).
         let cross = |a: [f64; 3], b: [f64; 3]| {
             [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
         };

@@ -70,7 +70,7 @@ pub struct SpeedScale {
 }
 
 impl SpeedScale {
-    /// Returns the scale that covers the speeds of a share `SHARE_IN_SCALE` of the dots in each moment.
+    /// Returns a scale that covers the speeds of at least the share `SHARE_IN_SCALE` of the dots of each moment.
     pub fn holding<'a>(moments: impl IntoIterator<Item = &'a [Dot]>) -> Self {
         let fast = |dots: &[Dot]| {
             let mut speeds: Vec<f64> = dots.iter().map(|dot| dot.speed).filter(|speed| speed.is_finite()).collect();

@@ -4,11 +4,12 @@
 //! | --- | --- | --- |
 //! | Hertz-Mindlin (default) | [`super::hertz_mindlin`] | spring with history: stores the tangential displacement |
 //! | linear | [`super::linear`], measured stiffness | spring with history |
-//! | `chrono4` | Hertz with R = 0.1 m for every contact | spring of one substep, without history; 0 below 0.1 mm/s |
+//! | `chrono4` | Hertz with R = 0.1 m for every contact | spring of one substep, no history; zero below 0.1 mm/s |
 //!
-//! The tangential force is limited to |F_t| <= mu F_n. If F_n would be negative, both forces are zero. mu changes from
-//! mu_s at rest to mu_k during sliding: mu = mu_k + (mu_s - mu_k) exp(-(v_t / v_c)^2). Rolling resistance is a spring
-//! with the limit |M| <= mu_r R F_n (Ai et al. 2011).
+//! The tangential force is limited to |F_t| <= mu F_n. If F_n would be negative, both forces are zero. At the sliding
+//! speed v_t, mu = mu_k + (mu_s - mu_k) exp(-(v_t / v_c)^2); mu_s is the coefficient at rest, mu_k during sliding.
+//! Rolling resistance is a spring whose torque M has the limit |M| <= mu_r R F_n, with the rolling coefficient mu_r and
+//! the effective radius R (Ai et al. 2011).
 //!
 //! `chrono4` reproduces Mitsui et al. (2023). Chrono 4.0 uses one radius for all contacts between meshes and does not
 //! store the tangential spring, so units creep under any load.

@@ -1,8 +1,8 @@
 //! Stiffness and damping of the Hertz-Mindlin law (Sunday et al. 2020; Mitsui et al. 2023, equations 10 and 11).
 //!
-//! F_n = (2/3) S_n d - g_n v_n and F_t = -(S_t d_t + g_t v_t), with overlap d [m], normal velocity v_n [m/s] (positive
-//! when the bodies separate), elongation d_t of the tangential spring [m] and tangential velocity v_t [m/s].
-//! [`super::contact_law`] limits both forces.
+//! F_n = (2/3) S_n d - g_n v_n and F_t = -(S_t d_t + g_t v_t), with stiffnesses S, damping coefficients g, overlap d
+//! [m], normal velocity v_n [m/s] (positive when the bodies separate), elongation d_t of the tangential spring [m] and
+//! tangential velocity v_t [m/s]. [`super::contact_law`] limits both forces.
 //!
 //! Damping factor: |beta| = -ln e / sqrt(ln^2 e + pi^2) gives the restitution e if the law allows a tensile normal
 //! force at the end of the contact. Here a tensile force is set to zero, and this formula would give a restitution of
@@ -34,12 +34,13 @@ pub fn tangential_stiffness(g_star: f64, radius: f64, overlap: f64) -> f64 {
     8.0 * g_star * (radius * overlap).sqrt()
 }
 
-/// Damping coefficient g = 2 sqrt(5/6) |beta| sqrt(S m*) [N s/m].
+/// Damping coefficient g = 2 sqrt(5/6) |beta| sqrt(S m*) [N s/m], with the stiffness S and the effective mass m*.
 pub fn damping(beta: f64, stiffness: f64, mass: f64) -> f64 {
     2.0 * (5.0f64 / 6.0).sqrt() * beta * (stiffness * mass).sqrt()
 }
 
-/// Largest overlap of an elastic impact with speed v [m/s]: d = (15 m* v^2 / (16 E* sqrt R))^(2/5) [m].
+/// Largest overlap of an elastic impact with speed v [m/s] and effective mass m* [kg]:
+/// d = (15 m* v^2 / (16 E* sqrt R))^(2/5) [m].
 pub fn impact_overlap(e_star: f64, radius: f64, mass: f64, speed: f64) -> f64 {
     (15.0 * mass * speed * speed / (16.0 * e_star * radius.sqrt())).powf(0.4)
 }
@@ -69,8 +70,8 @@ pub(super) fn damping_factor_of(e: f64, acceleration: impl Fn(f64, f64, f64) -> 
     0.5 * (low + high)
 }
 
-/// Restitution of x'' = a(x, x'), x(0) = 0, x'(0) = 1, integrated until the force is zero. In this dimensionless form,
-/// the law does not depend on mass, stiffness or speed.
+/// Restitution of the dimensionless impact x'' = a(x, x'), x(0) = 0, x'(0) = 1, integrated until the force is zero. In
+/// this form, the law does not depend on mass, stiffness or speed.
 fn tensionless_restitution(acceleration: impl Fn(f64, f64) -> f64) -> f64 {
     let acceleration = |x: f64, v: f64| acceleration(x.max(0.0), v);
     // A contact lasts about 3.2 in dimensionless time. With this time step, the error of the restitution is far below

@@ -32,8 +32,8 @@ pub struct ContactEvent {
     pub approach_normal: f64,
     /// Tangential velocity at the start [m/s].
     pub approach_tangential: f64,
-    /// Kinetic energy of the approach [J]: (1/2) m approach_normal^2. m is the mass of the unit, or half of this mass
-    /// between two units. 0 if `approach_normal` is negative.
+    /// Kinetic energy of the approach [J]: (1/2) m approach_normal^2; 0 if `approach_normal` is negative. m is the mass
+    /// of the unit; in a contact of two units, it is half of this mass.
     pub approach_energy: f64,
     /// Normal velocity at the end of the contact [m/s], positive when separating.
     pub rebound: f64,
@@ -43,7 +43,7 @@ pub struct ContactEvent {
     pub peak: [f64; 3],
     /// Time of the largest force [s].
     pub peak_time: f64,
-    /// Integral of the force on the body [N s].
+    /// Integral of the force on the body over time [N s].
     pub impulse: [f64; 3],
 }
 

@@ -1,9 +1,9 @@
 //! Contact force against time in bounded memory.
 //!
-//! The force is stored in bins, each with its impulse. When there are too many bins, neighbouring bins are merged. The
-//! pair with the smallest least-squares change of the force is merged first: int (f - f_merged)^2 dt =
-//! |f_1 - f_2|^2 d_1 d_2 / (d_1 + d_2), with mean forces f and durations d of the two bins. Impulses add up, so merging
-//! conserves the total impulse.
+//! The force f is stored in time bins, each with its impulse. When there are too many bins, neighbouring bins are
+//! merged. The pair with the smallest squared change of the force is merged first. This change is the integral of
+//! (f - f_merged)^2 over time, |f_1 - f_2|^2 d_1 d_2 / (d_1 + d_2), with the mean forces f_1 and f_2 and the durations
+//! d_1 and d_2 of the two bins. Impulses add up, so merging conserves the total impulse.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -29,7 +29,7 @@ pub struct ForceSample {
     pub start: f64,
     /// Duration [s].
     pub duration: f64,
-    /// Integral of the force over the bin [N s].
+    /// Integral of the force over the duration of the bin [N s].
     pub impulse: DVec3,
 }
 

@@ -123,7 +123,7 @@ impl ImpactLog {
         rank_in(&mut lists.by_energy, MAX_MOST_ENERGETIC, energy).map(|out| out.number)
     }
 
-    /// Removes an impact that is in the ranking of no unit.
+    /// Removes an impact if no unit has it in its ranking.
     fn drop_if_unranked(&mut self, number: u64) {
         let ranked = |unit: usize| {
             let UnitRanks { by_force, by_energy } = &self.units[unit];

@@ -2,8 +2,8 @@
 //!
 //! The ground is a chain of strips. A part touches a strip if the foot point of one of its ends ([`ConvexPart::ends`])
 //! lies on the strip. The part touches a convex corner if the direction from the corner line to the part lies between
-//! the normals of the two strips. The two cases join continuously and exclude each other, so no contact counts twice.
-//! In a concave corner, the part touches both strips.
+//! the normals of the two strips. A contact passes continuously from strip to corner, and never counts for both. In a
+//! concave corner, the part touches both strips.
 
 use glam::{DQuat, DVec3};
 
@@ -105,7 +105,7 @@ impl GroundSurface {
     }
 }
 
-/// Distance below which two foot points are the same [m].
+/// Largest distance in x outside a strip at which a foot point still counts as on the strip [m].
 const SAME_POINT: f64 = 1e-12;
 /// Sine of the angle below which two strips count as one plane [-].
 const STRAIGHT: f64 = 1e-6;
@@ -177,7 +177,7 @@ pub(super) fn nearest_to_segment(
         let middle: f64 = 0.5 * (low + high);
         let on_segment = a.lerp(b, middle);
         let core = rotation * part.nearest(back * (on_segment - position)) + position;
-        // Along the segment, the distance to the part changes by at most the length of the path.
+        // Between two points of the segment, the distance to the part changes by at most their distance.
         if on_segment.distance(core) - 0.5 * (high - low) * length > reach {
             return None;
         }

@@ -110,7 +110,7 @@ fn to_world([p_a, p_b]: [DVec3; 2], (q_a, x_a): Placement, reach: f64) -> Neares
 
 /// Largest number of alternating projections. Each projection reduces the error by a few tens of per cent; the
 /// reduction depends on the ratio of the rounding radius to the radius of the cores. 60 projections are needed only if
-/// two surfaces are parallel; any nearest point is then valid.
+/// two surfaces are parallel; many pairs of points are then equally near, and any of them is valid.
 const MAX_PROJECTIONS: usize = 60;
 /// Largest ratio of two consecutive steps for which the limit is extrapolated [-].
 const MAX_RATIO: f64 = 0.95;
@@ -142,8 +142,8 @@ mod tests {
                 continue;
             };
             let n = (p_b - p_a).normalize();
-            // No point of a core lies beyond the plane through its nearest point normal to n. This proves that the
-            // points are nearest. Limit 1e-9 of the unit height: a thousandth of the overlap at rest.
+            // The plane normal to n through the nearest point of a core has the whole core on one side. This proves
+            // that the points are nearest. Limit 1e-9 of the unit height: a thousandth of the overlap at rest.
             assert!(a.support(n).dot(n) - p_a.dot(n) < 1e-9, "{i}");
             let on_b = turn * b.support(turn.inverse() * -n) + shift;
             assert!(p_b.dot(n) - on_b.dot(n) < 1e-9, "{i}");

@@ -1,8 +1,8 @@
 //! Contact points of bodies with each other, with periodic images, with the ground and with walls.
 //!
 //! Bounding spheres select pairs of bodies; distances between cores select pairs of parts. The list of part pairs
-//! includes a margin and is reused until the bodies have moved by this margin. Contact points are sorted by key, so
-//! sums over contact points always have the same order.
+//! includes gaps up to a margin, and is reused until the bodies have moved by this margin. Contact points are sorted by
+//! key, so sums over contact points always have the same order.
 
 use std::sync::Arc;
 

@@ -55,7 +55,7 @@ pub enum PlacementError {
 pub struct ArmourLayer {
     /// Poses and velocities of the units at the end.
     pub units: Vec<BodyState>,
-    /// Number of units whose centre is at the end seaward or shoreward of the slope that the layers cover.
+    /// Number of units that left the slope: at the end, their centre is seaward or shoreward of the covered slope.
     pub rolled_off: usize,
     /// Packing density of the units that stayed on the slope: their number divided by A / D_n^2 [-].
     pub packing_density: f64,
@@ -88,7 +88,7 @@ impl ArmourLayer {
     }
 }
 
-/// Places the layers of a job. After each unit, calls `report` with the number of placed units and the time [s].
+/// Places the layers of a job. After each unit, calls `report` with the number of placed units and simulated time [s].
 ///
 /// # Errors
 /// If there is no room for a unit, or the contact solver becomes unstable.

@@ -17,8 +17,8 @@ pub(super) struct Slot {
     pub rotation: DQuat,
 }
 
-/// Smallest distance of the centre of a unit from a side wall, divided by the height of the unit [-]. This is the reach
-/// of a leg.
+/// Smallest distance of the centre of a unit from a side wall, divided by the height of the unit [-]. The tip of a leg
+/// has about this distance from the centre.
 const FROM_WALL: f64 = 0.68;
 
 /// Returns the rows of all layers in the order of placement: layer by layer, and in each layer from the toe upwards.
@@ -41,7 +41,7 @@ pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
         let mut of_layer: Vec<Vec<Slot>> = Vec::new();
         for row in 0..along {
             let in_row = across.min(count - row * across);
-            // Shift every second row by half a pitch; in the next layer, shift the other rows: units lie above gaps.
+            // Shift every second row by half a pitch. In the next layer, shift the other rows, so units lie above gaps.
             let shift = if (row + layer).is_multiple_of(2) { 0.25 } else { 0.75 };
             let x = along_slope(&slope, (row as f64 + 0.5) / along as f64 * length);
             let slot = |column: usize| {

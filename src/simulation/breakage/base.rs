@@ -26,15 +26,15 @@ const FOOT: f64 = 0.25;
 /// Width of the block on a plane bed, divided by the width that the feet need [-].
 const MARGIN: f64 = 1.1;
 
-/// Depths below the touching foot, divided by the height of the unit [-]. On a bed that is not plane, the block avoids
-/// the parts of the unit below such a depth. The first depth that leaves room for the block is used.
+/// Depths below the foot at the contact point, divided by the height of the unit [-]. On a bed that is not plane, the
+/// block avoids the parts of the unit below such a depth. The first depth that leaves room for the block is used.
 const LEVELS: [f64; 3] = [0.01, 0.02, 0.05];
 
 /// Initial gap between the bodies, divided by the height of the unit [-].
 pub const GAP: f64 = 1e-4;
 
-/// Largest depth of a mesh edge below the contact point, divided by the height of the unit [-]. The edges of the mesh
-/// are sharp, but the contact point was computed for rounded edges.
+/// Largest depth below the contact plane that the sharp edges of the unit's mesh reach, divided by the height of the
+/// unit [-]. The contact point was computed for rounded edges.
 pub const ROUNDED_OFF: f64 = 0.05;
 
 /// Nodes closer than this to the contact point count as touching: distance, divided by the height of the unit [-].
@@ -49,7 +49,7 @@ pub struct BlockPosition {
     pub width: f64,
     /// Level of the upper side along the contact normal [m].
     pub top: f64,
-    /// Distance from the upper side up to the touching foot [m].
+    /// Distance from the upper side up to the foot that touches it first [m].
     pub gap: f64,
 }
 
@@ -84,8 +84,8 @@ impl BlockPosition {
         let over = nodes.iter().filter(|node| flat(**node - middle).length() <= half_diagonal);
         let lowest = over.map(level).fold(f64::INFINITY, f64::min);
         let top = if lowest.is_finite() { lowest } else { 0.0 } - GAP * height;
-        // The contact point was computed for rounded edges, but the edges of the mesh are sharp. On a plane bed, the foot
-        // at the contact point is therefore not always the lowest foot. The lowest foot touches the block first.
+        // The contact point was computed for rounded edges, but the edges of the mesh are sharp. On a plane bed, the
+        // foot at the contact point is therefore not always the lowest foot, which touches the block first.
         let gap = if is_plane { GAP * height } else { (foot - top).max(GAP * height) };
         Self { middle, width, top, gap }
     }
@@ -144,12 +144,12 @@ mod tests {
 
     #[test]
     fn where_legs_reach_below_the_contact_plane_the_block_lies_under_the_touching_foot() {
-        // The contact plane is a slope. Towards the crest, the unit reaches below this plane, first slightly, then
-        // further.
+        // The contact plane is a slope. Near the contact point, the unit reaches slightly below this plane; further
+        // away, it reaches deeper.
         let nodes = feet(&[[0.0, 0.0, 0.0], [-0.5, 0.0, -0.025], [-0.8, 0.1, -0.13], [0.1, 0.2, 1.0]]);
         let seat = BlockPosition::below(&nodes, |_| DVec3::ZERO, DVec3::new(-0.3, 0.0, 0.4), DVec3::Z, 1.0);
         assert_eq!((seat.top, seat.gap, seat.middle), (-GAP, GAP, DVec3::ZERO));
-        // Half the diagonal of the block does not reach the second foot, 0.49 m away.
+        // Half the diagonal of the block is shorter than 0.49 m, the distance of the second foot.
         assert!(seat.width * std::f64::consts::FRAC_1_SQRT_2 < 0.49 && seat.width > 0.5, "{}", seat.width);
         // The block is narrower if the second foot slides 0.2 m towards the contact point.
         let slid = BlockPosition::below(&nodes, |_| 0.2 * DVec3::X, DVec3::new(-0.3, 0.0, 0.4), DVec3::Z, 1.0);
@@ -168,7 +168,7 @@ mod tests {
         let nodes = feet(&[[0.0, 0.0, 0.0], [-0.05, 0.0, -0.2], [0.1, 0.2, 1.0]]);
         let seat = BlockPosition::below(&nodes, |_| DVec3::ZERO, DVec3::new(0.0, 0.0, 0.4), DVec3::Z, 1.0);
         assert!((seat.top + 0.2 + GAP).abs() < 1e-12, "{seat:?}");
-        // The gap is measured from the foot at the contact point, 0.2 m above the lower foot.
+        // The gap is measured from the foot at the contact point, which is 0.2 m above the lower foot.
         assert!(seat.gap >= GAP && seat.gap <= 0.2 + GAP);
     }
 }

@@ -20,7 +20,8 @@ pub struct ScaledImpact<'a> {
     pub impact: &'a Impact,
     /// Scale factors of lengths, velocities and masses.
     pub froude: Froude,
-    /// Scale factors of the force and the duration of the impact.
+    /// Scale factors of the force and the duration of the impact: by Hertz's law for the contact law Hertz-Mindlin, by
+    /// Froude's law for the other contact laws.
     pub scale: ImpactScale,
     /// Duration of the impact in the prototype by Hertz's law [s].
     pub duration: f64,
@@ -60,8 +61,8 @@ impl<'a> ScaledImpact<'a> {
         let prototype = effective_young_modulus(&unit, if on_unit { &unit } else { &base });
         let scale = match model.law {
             ContactLawName::HertzMindlin => froude.blow(recorded, prototype),
-            // The recorded forces of these laws are not Hertz forces: `linear` has a constant stiffness, `chrono4` a
-            // fixed contact radius. Therefore scale them by Froude's law.
+            // The recorded forces of these two contact laws are not Hertz forces: `linear` has a constant stiffness,
+            // `chrono4` has a fixed contact radius. Therefore Froude's law scales them.
             ContactLawName::Linear | ContactLawName::Chrono4 => {
                 ImpactScale { force: froude.mass(), time: froude.velocity() }
             }
@@ -128,8 +129,8 @@ impl<'a> ScaledImpact<'a> {
     }
 }
 
-/// Simulated time after first contact, divided by the duration of an impact on one foot [-]. An impact on three feet is
-/// shorter.
+/// Simulated time after first contact, divided by the duration of an impact on one foot [-]. An impact on three feet
+/// has a shorter duration.
 const DURATIONS_AFTER_CONTACT: f64 = 1.5;
 
 /// Smallest simulated time after first contact, divided by the time in which an elastic wave crosses the unit [-].

@@ -4,8 +4,8 @@
 /// times the length in the model.
 ///
 /// Strength, Young's modulus and fracture energy of concrete do not follow this law. For example, stresses in the
-/// prototype are lambda times the stresses in the model, but the strength is not. Young's modulus determines force and
-/// duration of an impact, so [`Self::blow`] scales them by Hertz's law.
+/// prototype are lambda times the stresses in the model, but the strength is the same. Young's modulus determines force
+/// and duration of an impact, so [`Self::blow`] scales force and duration by Hertz's law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Froude {
     /// Scale lambda: prototype length divided by model length [-].

@@ -49,7 +49,7 @@ pub fn scene(blow: &ScaledImpact, impacts: &Impacts) -> ImpactScene {
         loads.push(LoadFile::Force {
             body: UnitMesh::NAME.to_owned(),
             place_m: mover.pose.position.to_array(),
-            // A radius that includes all faces of the unit.
+            // This radius includes all faces of the unit.
             radius_m: 2.0 * blow.model.shape.height() * blow.froude.length(),
             axes: LoadAxes::Space,
             history: vec![row],
@@ -60,9 +60,9 @@ pub fn scene(blow: &ScaledImpact, impacts: &Impacts) -> ImpactScene {
 }
 
 /// Returns the start of the contact `other` in the prototype [s], counted from the start of the impact `blow`, and the
-/// scale factors of this contact. If both contacts belong to one collision, Hertz's law scales the time between them
-/// and the forces. Otherwise, Froude's law scales the time between them. Froude's law also scales the forces of `other`
-/// if this contact began earlier, because its impact is over.
+/// scale factors of this contact. If both contacts belong to one collision, [`ScaledImpact::scale`] scales the time
+/// between them and the forces. Otherwise, Froude's law scales the time between them. Froude's law also scales the
+/// forces of `other` if this contact began before the impact `blow`.
 fn start_and_scale(blow: &ScaledImpact, other: &Impact) -> (f64, ImpactScale) {
     let since = other.event.start - blow.impact.event.start;
     let own = ScaledImpact::new(blow.model, blow.settings, other).scale;
@@ -124,7 +124,7 @@ mod tests {
         let impulse: f64 = rows.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][3] + p[1][3])).sum();
         // The samples have the impulse 31 N s. The scale factors are 7 for force and 3 for time; the sign is -1.
         assert!((impulse / (-31.0 * 21.0) - 1.0).abs() < 1e-9, "{impulse}");
-        // If the contact began 0.6 s before time 0, 0.9 s of the 1.2 s of the second sample remain.
+        // The contact began 0.6 s before time 0. Of the second sample, which lasts 1.2 s, 0.9 s are after time 0.
         let late = super::rows(&samples, 5.0, -0.6, scale, 1.0, 100.0);
         assert!(late[0][0] == 0.0 && late.windows(2).all(|pair| pair[0][0] < pair[1][0]), "{late:?}");
         let impulse: f64 = late.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][3] + p[1][3])).sum();

@@ -15,8 +15,8 @@ impl Model {
     }
 
     /// Returns, for each unit, the largest nominal stress of its recorded impacts at prototype scale [Pa]; 0 for units
-    /// without impacts. The peak force is scaled by Hertz's law. The stresses in the cross-sections follow from beam
-    /// theory without inertia.
+    /// without impacts. [`ScaledImpact::scale`] scales the peak force. The stresses in the cross-sections follow from
+    /// beam theory; the inertia of the unit is neglected.
     pub fn nominal_stresses(&self, settings: &BreakageSettings, impacts: &Impacts) -> Vec<f64> {
         let mut stresses = vec![0.0f64; self.count];
         let sections = self.sections();
@@ -42,7 +42,7 @@ impl UnitKind {
             Self::Dolos { height, waist } => dolos::sections(*height, *waist),
             Self::CoreLoc { size } => core_loc::sections(*size),
             Self::Cuboid { edges } => cuboid::sections(DVec3::from_array(*edges)),
-            // The cross-section is a full square, although the grooves remove a twentieth of its area.
+            // The full square is used as the cross-section, although the grooves remove a twentieth of its area.
             Self::GroovedCube { height } => cuboid::sections(DVec3::splat(*height)),
             Self::Stl(_) => Vec::new(),
         }

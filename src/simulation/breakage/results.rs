@@ -11,8 +11,8 @@ use crate::case::{BreakageSettings, RerunMethod};
 use crate::output::{BreakageSummary, CsvSeries, Impacts, OutputError, columns, write_atomically};
 use crate::simulation::fracture::summary::FractureSummary;
 
-/// A unit is broken if its heaviest piece has less than this share of its mass [-]. Chipped edges and crushed feet do
-/// not count as broken.
+/// A unit is broken if its heaviest piece has less than this share of the mass of the unit [-]. A unit with chipped
+/// edges or crushed feet does not count as broken.
 pub const BROKEN: f64 = 0.95;
 
 /// Displacement of a unit.
@@ -48,7 +48,7 @@ pub struct UnitBreakage {
     pub displacement_m: f64,
     /// True if the displacement exceeds the damage distance.
     pub damaged: bool,
-    /// Largest force of the unit's recorded impacts, scaled by Hertz's law [N]; 0 without impacts.
+    /// Largest force of the unit's recorded impacts, scaled by [`ScaledImpact::scale`] [N]; 0 without impacts.
     pub peak_force_n: f64,
     /// Largest nominal stress of the unit's recorded impacts by beam theory [Pa]; none for units from STL files.
     pub nominal_stress_pa: Option<f64>,
@@ -81,9 +81,9 @@ pub struct Outcome {
     pub t_s: f64,
     /// Normal velocity of approach in the run [m/s].
     pub approach_m_s: f64,
-    /// Largest force in the run [N].
+    /// Largest force of the impact in the run [N].
     pub peak_force_n: f64,
-    /// Largest force scaled to the prototype by Hertz's law [N].
+    /// Largest force of the impact, scaled to the prototype by [`ScaledImpact::scale`] [N].
     pub prototype_force_n: f64,
     /// Duration of the impact in the prototype by Hertz's law [s].
     pub blow_s: f64,
@@ -91,7 +91,7 @@ pub struct Outcome {
     pub balance: Balance,
     /// Results for the unit, and for the other unit if it was part of the re-run.
     pub found: Vec<Found>,
-    /// Largest residual of the energy balance, divided by the largest kinetic energy [-]; none if the run failed.
+    /// Largest residual of the energy balance, divided by the largest kinetic energy [-]; none after a failure.
     pub energy_residual_ratio: Option<f64>,
     /// Reason why the fracture run failed; none if it succeeded.
     pub failure: Option<String>,

@@ -34,7 +34,7 @@ pub fn select(impacts: &Impacts, selection: &Selection) -> Vec<usize> {
 }
 
 /// Returns true if two contacts are between the same bodies, and the time between their starts is at most the duration
-/// of the longer impact. This duration is estimated as twice the time from start to peak force.
+/// of the longer contact. The duration of a contact is estimated as twice the time from its start to its peak force.
 pub fn same_collision(a: &Impact, b: &Impact) -> bool {
     let bodies = |impact: &Impact| {
         let (body, partner) = (Some(impact.event.body), impact.event.partner_unit());

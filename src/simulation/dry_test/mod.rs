@@ -49,8 +49,8 @@ pub struct Measured {
     pub energy_start: f64,
     /// Mechanical energy at the last measurement [J].
     pub energy: f64,
-    /// Largest rise of the mechanical energy between two successive measurements [J]; 0 in a tilt test, where it is not
-    /// measured.
+    /// Largest rise of the mechanical energy between two successive measurements [J]; 0 in a tilt test, which does not
+    /// measure this rise.
     pub largest_rise: f64,
     /// Time at which all units came to rest [s]; `None` while a unit moves or if the case has no rest criterion.
     pub at_rest_since: Option<f64>,

@@ -14,7 +14,7 @@ use crate::{
     simulation::flume::outputs::snapshots::{Frame, UNIT_FIELDS},
 };
 
-/// Number of times that each output was written, and lengths of the tables.
+/// How often each output was written, and the lengths of the tables.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct Counts {
     series: u64,

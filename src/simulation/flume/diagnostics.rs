@@ -56,7 +56,7 @@ impl Simulation {
             if let Some(failure) = failure::find_wrong_density(self, &extremes) {
                 return Err(failure);
             }
-            // The graphics card computes the extremes before velocity components into solids are removed. Check again.
+            // The graphics card computes the extremes before velocity components into solids are removed: check again.
             if fast && extremes.fastest.0 > LARGEST_MACH * self.case.fluid.sound_speed {
                 self.statistics.warnings.push(mach_warning(self, &Particle::of(&self.water, extremes.fastest.1)));
             }
@@ -65,8 +65,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Returns a row of `diagnostics.csv`; `dt` is the length of the next time step [s], `divergence` [1/s] comes from
-    /// [`crate::sph::solver::power::Powers`]. Mach number and densities in the row are the extremes since the last row.
+    /// Returns a row of `diagnostics.csv`; `dt` is the length of the next time step [s], and `divergence` [1/s] is
+    /// [`crate::sph::solver::power::Powers::divergence`]. Mach number and densities are extremes since the last row.
     pub(super) fn diagnostics_row(&mut self, dt: f64, divergence: f64) -> [f64; 10] {
         let volume = self.water_volume();
         let start = *self.statistics.water_start.get_or_insert((volume, self.water.len() as u64));
@@ -137,7 +137,7 @@ mod tests {
         let [_, volume, change, mach, lowest, highest, divergence, steps, dt, lost] =
             simulation.diagnostics_row(1e-4, 0.3);
         assert_eq!((change, mach, divergence, steps, dt, lost), (0.0, 0.0, 0.3, 0.0, 1e-4, 0.0));
-        // 0.5 m x 0.2 m x 0.2 m of water, slightly compressed by its weight.
+        // The tank contains 0.5 m x 0.2 m x 0.2 m of water, slightly compressed by its weight.
         assert!((volume / 0.02 - 1.0).abs() < 0.01, "{volume}");
         assert!(lowest <= highest && lowest > 990.0);
         simulation.water.velocity[3] = DVec3::Y * 0.05 * sound;

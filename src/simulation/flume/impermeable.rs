@@ -2,9 +2,9 @@
 //!
 //! mDBC gives the boundary particles the pressure of the nearby water, but it does not stop every particle. A water
 //! particle that hits an edge, or enters the narrow gap under a unit, can pass through the surface. Therefore the few
-//! particles nearer to a surface than [`NEAREST`] obey the kinematic condition of an impermeable surface: the component
-//! of their relative velocity towards the surface is removed. In calm water no particle is affected, because particles
-//! stay half a particle spacing away from surfaces. A unit receives the removed momentum of the water as an impulse.
+//! particles within [`NEAREST`] particle spacings of a surface obey the condition of an impermeable surface: they lose
+//! the component of their relative velocity towards the surface. In calm water no particle is affected, because all
+//! particles stay half a particle spacing away from surfaces. A unit receives the momentum that the water loses.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -46,7 +46,7 @@ impl Simulation {
         };
         let dp = case.domain.dp;
         let nearest = NEAREST * dp;
-        // A graphics card returns only the particles near surfaces. On a processor, the bins find those near the units.
+        // A graphics card returns only the particles near surfaces. On a processor, the bins give those near the units.
         let mut keep_out = |water: &mut Water, bins: Option<&Bins>| {
             keep_out_of_walls(water, outline, nearest);
             if case.domain.sides == Sides::Walls {

@@ -230,7 +230,7 @@ fn fixed_particles(
     let thickness = f64::from(layers) * domain.dp;
     for obstacle in &domain.obstacles {
         let solid = box_particles(obstacle, domain.dp, thickness).into_iter();
-        // On a slope, a corner of the box can be below the bed. The bed already has particles there.
+        // On a slope, a corner of the obstacle can be below the bed, where the bed already has particles.
         particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x)));
     }
     particles
@@ -296,8 +296,8 @@ fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
 }
 
 /// Returns the boundary particles of a unit in body axes; in two dimensions, those of a slice of the unit. If a cuboid
-/// fills the width of a periodic flume, its side faces touch its periodic images. No surface vector then points to a
-/// side face.
+/// fills the width of a periodic flume, its side faces touch its periodic images. The vectors `to_surface` of its
+/// boundary particles then never point to these faces.
 fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     let case::Domain { dp, width, sides, .. } = case.domain;
     let mut particles = match (shape.as_box(), sides) {

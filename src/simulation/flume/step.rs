@@ -86,7 +86,7 @@ impl Simulation {
         let Some(units) = &mut self.units else { return Ok(()) };
         let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
         let loads = self.solver.unit_loads(&self.boundary, &centres)?;
-        // In two dimensions, the particles are only one slice of each unit: multiply by the number of slices.
+        // In two dimensions, the particles represent only one slice of each unit: multiply by the number of slices.
         let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
         units.fluid_loads = loads.into_iter().map(|load| load.map(|sum| slices * sum)).collect();
         Ok(())

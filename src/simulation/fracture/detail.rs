@@ -26,8 +26,8 @@ const TET_FIELDS: [(&str, FieldKind); 5] = [
     ("body", FieldKind::Integer),
     ("fragment", FieldKind::Integer),
 ];
-/// Bytes per tetrahedron and output time in `tets.vtkhdf`: fields, offset and type, and the share of a tetrahedron in
-/// the positions and velocities of the nodes. Meshes of tools/mesh have one node per five tetrahedra.
+/// Bytes per tetrahedron and output time in `tets.vtkhdf`: 40 for the fields, 9 for offset and type, and its share of
+/// the 24 bytes for position and velocity of a node. Meshes of tools/mesh have one node per five tetrahedra.
 const TET_BYTES: f64 = 40.0 + 9.0 + 24.0 / 5.0;
 /// Bytes per tetrahedron for the list of its nodes (connectivity), which is written once.
 const CONNECTIVITY_BYTES: f64 = 32.0;

@@ -10,7 +10,8 @@ use crate::{
     femdem::world::{World, limits::StepError},
 };
 
-/// Speed divided by wave speed [-] that no impact of units reaches, because strains would be about 10 %.
+/// Speed of a corner of a tetrahedron, divided by the wave speed in the material [-]. No impact of units reaches this
+/// ratio, because the strains would be about 10 %.
 const MAX_SPEED_RATIO: f64 = 0.1;
 
 /// Usual causes of an unstable run.
@@ -65,7 +66,7 @@ pub enum Failure {
         time * 1e3
     )]
     NotFinite { time: f64, step: u64, node: Part },
-    /// A node is faster than twice the wave speed in the material.
+    /// A node is faster than twice the wave speed in the material plus the speed that the case prescribes.
     #[error(
         "after {:.5} ms (step {step}) {node} moves at {speed:.3e} m/s, more than the limit of {limit:.3e} m/s, which \
          is twice the wave speed plus the speed given by the case: the run is unstable; {UNSTABLE}", time * 1e3

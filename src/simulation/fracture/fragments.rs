@@ -42,7 +42,7 @@ pub fn pieces(world: &World) -> Pieces {
     for (interface, bond) in setup.interfaces.iter().zip(&world.joints.bond) {
         if *bond != Bond::Broken {
             let [a, b] = interface.tets.map(|tet| first_of(&mut leader, tet));
-            // The lower index leads, so that the result does not depend on the order of the faces.
+            // The tetrahedron with the lower index leads its piece: the order of the faces does not affect the result.
             leader[a.max(b) as usize] = a.min(b);
         }
     }

@@ -5,7 +5,8 @@ use glam::DVec3;
 use crate::femdem::world::{Failure, World};
 
 /// A failed face that is further than this from all earlier failed faces begins a new crack: distance divided by the
-/// edge length of the face [-]. A growing crack advances by one element at a time, so its next face is nearer.
+/// edge length of the face [-]. A growing crack advances by one element at a time, so its next face is within this
+/// distance.
 const NEW_CRACK_DISTANCE: f64 = 4.0;
 
 /// Beginning of a crack.
@@ -19,13 +20,13 @@ pub struct Initiation {
     pub area: f64,
 }
 
-/// Returns the beginnings of the cracks, in order of time. A face that fails within four edge lengths of earlier failed
-/// faces belongs to the crack of the nearest of these faces.
+/// Returns the beginnings of the cracks, in order of time. A failing face belongs to the crack of the nearest earlier
+/// failed face, if its distance to this face is less than four edge lengths.
 pub fn initiations(world: &World) -> Vec<Initiation> {
     let setup = world.setup();
     let mut found: Vec<(Initiation, Vec<DVec3>)> = Vec::new();
     for failure in &world.failures {
-        // Edge length of an equilateral triangle of the same area.
+        // The edge length of the face is that of an equilateral triangle of the same area.
         let reach = NEW_CRACK_DISTANCE * (failure.area * 4.0 / 3f64.sqrt()).sqrt();
         let distance = |(_, places): &(Initiation, Vec<DVec3>)| {
             places.iter().map(|place| place.distance(failure.centroid)).fold(f64::MAX, f64::min)

@@ -7,7 +7,7 @@ use crate::femdem::element::{self, Moduli};
 use crate::femdem::principal_stresses::principal_stresses;
 use crate::femdem::world::World;
 
-/// Largest first principal stress of a body, of all times at which the energy balance has a row.
+/// Largest first principal stress of a body, among the times at which `energy.csv` has a row.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PeakStress {
     /// First principal stress sigma_1 of a tetrahedron, tension positive [Pa].

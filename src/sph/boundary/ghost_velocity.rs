@@ -1,12 +1,12 @@
-//! Velocity of the water at the ghost nodes of mDBC, for no-slip and free-slip walls. The corrected interpolation is
-//! the same as for the density.
+//! Velocity of the water at the ghost nodes of mDBC, for no-slip and free-slip walls. The interpolation is corrected
+//! in the same way as for the density.
 //!
 //! The interpolated value is a linear function of the values at the water particles. Therefore the four equations of
 //! [`mdbc`](super::mdbc) are solved once per node for the weights of their left-hand sides: the number a and the vector
 //! b. The velocity at the node is then one weighted sum over the water particles j:
-//! v = sum_j (a W + g b . r_j) V_j v_j. Here r_j is the vector from the node to particle j in units of h. V_j and v_j are
-//! the volume and the velocity of this particle. W is the kernel. g is not gravity but -h^2 G, with the factor G of the
-//! kernel gradient grad_a W_ab = G r_ab.
+//! v = sum_j (a W + g b . r_j) V_j v_j. Here r_j is the vector from the node to particle j in units of h. V_j and v_j
+//! are the volume and the velocity of this particle. W is the kernel. g is not gravity but -h^2 G, with the factor G of
+//! the kernel gradient grad_a W_ab = G r_ab.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -86,7 +86,7 @@ fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVe
     let (mean, trust) = ([1.0 / occupied, 0.0, 0.0, 0.0], sums.trust(to_surface));
     let fitted = (trust > 0.0).then(|| sums.weights()).flatten().unwrap_or(mean);
     let kernel = &parameters.kernel;
-    // Constant factors of W and of g r, with g = -G h^2 and r in units of h.
+    // Constant factors of W and of g r_j with g = -G h^2. The sum uses r_j in metres; g r_j / h has the factor of -G h.
     let (w, g) = (f64::from(kernel.scale()), -f64::from(kernel.gradient_scale()) * kernel.h);
     std::array::from_fn(|k| {
         let weight = mean[k] + trust * (fitted[k] - mean[k]);

@@ -12,9 +12,9 @@
 //!
 //! If too few particles surround the node, the matrix is ill-conditioned. The published fallback is the mean density of
 //! the neighbours, extrapolated from their centroid to the boundary particle with the hydrostatic gradient. The code
-//! also uses this fallback for thin sheets of water on a dry bed, where all water lies between node and boundary.
-//! There, a gradient fitted to one or two layers of particles would be extrapolated far behind the sheet, and its
-//! errors would drive the sheet apart. If a node has no neighbours, its boundary particle has the reference density
+//! also uses this fallback for thin sheets of water on a dry bed, where all water lies between node and boundary. In
+//! such a sheet, a gradient fitted to one or two layers of particles would be extrapolated far behind the sheet, and
+//! its errors would drive the sheet apart. If a node has no neighbours, its boundary particle has the reference density
 //! rho0. No boundary density is lower than rho0, because a wall exerts pressure on the water but no suction.
 
 use glam::DVec3;
@@ -51,7 +51,7 @@ pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 /// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
 pub(super) const MIN_CHUNK: usize = 1024;
 
-/// Sum of W V below which a node is dry [-]. One particle at the distance dp contributes more.
+/// A node is dry if its sum of W V is below this value [-]. One particle at the distance dp contributes more.
 pub(in crate::sph) const DRY_LIMIT: f64 = 0.01;
 
 /// All ghost nodes, sorted into bins, with their neighbour lists and sums.
@@ -198,7 +198,7 @@ impl NodeSums {
         if occupied < DRY_LIMIT {
             return rho0;
         }
-        // Vector from the node to the particle, in h.
+        // Vector from the node to the boundary particle [h].
         let back = -2.0 * to_surface / parameters.kernel.h;
         let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
         let above_centroid = back.z - f64::from(self.value[3]) / occupied;
@@ -209,7 +209,7 @@ impl NodeSums {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
-        // No suction: air enters between a wall and water that separates from the wall.
+        // A wall exerts no suction: air enters between the wall and water that separates from it.
         rho0 + excess.max(0.0)
     }
 
@@ -281,9 +281,9 @@ mod tests {
         for (z, trust) in [(0.3, 1.0), (-0.1, 1.0), (-0.15, 0.5), (-0.2, 0.0), (-0.5, 0.0)] {
             assert!((layer(z, 0.74, 0.0).trust(bed) - trust).abs() < 1e-6, "{z}");
         }
-        // Same water, but the boundary is a ceiling: the water lies on the far side of the node, and the trust is 1.
+        // If the boundary is a ceiling, the same water lies on the far side of the node, and the trust is 1.
         assert_eq!(layer(-0.5, 0.74, 0.0).trust(-bed), 1.0);
-        // The spreads of two layers of particles, three layers and deep water.
+        // The spreads occur with two layers of particles, three layers and deep water.
         for (spread, trust) in [(0.3, 0.0), (0.55, 0.5), (0.74, 1.0)] {
             assert!((layer(0.3, spread, 0.0).trust(bed) - trust).abs() < 1e-6, "{spread}");
         }
@@ -310,7 +310,7 @@ mod tests {
         let to_surface = DVec3::new(0.0, 0.0, 0.005);
         let rho0 = parameters.tait.rho0;
         let pressed = layer(-0.5, 0.0, 3.0).density_at(&parameters, to_surface);
-        // Height of the centroid above the boundary particle; the centroid lies h / 2 below the ghost node.
+        // `height` is from the boundary particle up to the centroid, which lies h / 2 below the ghost node.
         let height = 2.0 * to_surface.z - 0.5 * parameters.kernel.h;
         let expected = 3.0 + rho0 * parameters.gravity / parameters.tait.c0.powi(2) * height;
         assert!((pressed - rho0 - expected).abs() < 1e-6);

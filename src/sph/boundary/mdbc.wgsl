@@ -1,4 +1,4 @@
-// Density of boundary particles from their ghost nodes (mdbc.rs).
+// Computes the density of boundary particles from the water around their ghost nodes (mdbc.rs).
 
 @group(0) @binding(1) var<storage, read> records: array<Record>;
 @group(0) @binding(2) var<storage, read> water_start: array<u32>;
@@ -9,8 +9,9 @@
 // rho - rho0 of the boundary [kg/m3].
 @group(0) @binding(7) var<storage, read_write> density: array<f32>;
 
-// Sums over the water particles around a ghost node. W is the kernel, grad W = G r, g = -G h^2, V the volume of a
-// particle, (x, y, z) the vector from the node to the particle in units of h, and f = rho - rho0 [kg/m3].
+// Sums over the water particles around a ghost node. W is the kernel, g = -G h^2 with the factor G of the kernel
+// gradient (kernel.rs), V the volume of a particle, (x, y, z) the vector from the node to the particle in units of h,
+// and f = rho - rho0 [kg/m3].
 struct NodeSums {
     // Sum of W V (x, y, z, 1).
     value: vec4<f32>,

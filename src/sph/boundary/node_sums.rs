@@ -13,11 +13,13 @@ pub struct Pair<L> {
     pub r: [L; 3],
     /// W V: kernel times volume of the particle, without the constant factor of W.
     pub wv: L,
-    /// G V, with the factor G of the kernel gradient grad_a W_ab = G r_ab, without the constant factor of G.
+    /// G V, with the factor G of the kernel gradient grad_a W_ab = G r_ab (not the `G` of [`NodeTerms`]), without the
+    /// constant factor of G.
     pub gv: L,
 }
 
-/// `N` sums over the water particles around a ghost node. The terms can use `G` numbers per node that the caller gives.
+/// `N` sums over the water particles around a ghost node. The caller gives `G` numbers per node, which
+/// the terms can use.
 pub trait NodeTerms<const N: usize, const G: usize>: Copy + Default + Send {
     /// Adds the contribution of the water particle `b` to the sums, without constant factors.
     fn add<L: Lanes>(sums: &mut [L; N], node: &[L; G], pair: &Pair<L>, b: &Record);
@@ -31,8 +33,9 @@ pub trait NodeTerms<const N: usize, const G: usize>: Copy + Default + Send {
 }
 
 /// Computes the sums of all nodes. `nodes` are split positions (see
-/// [`split_position`](crate::sph::neighbours::records::split_position)); `known` has the `G` given numbers of each
-/// node; `lists` has the neighbours of each node as indices in `records`. `bin_x` is the length of a bin along x [m].
+/// [`split_position`](crate::sph::neighbours::records::split_position)); `known` has the `G` numbers of each node for
+/// the terms; `lists` has the neighbours of each node as indices in `records`. `bin_x` is the length of a bin along x
+/// [m].
 pub fn sum_around_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
     parameters: &Parameters,
     bin_x: f32,

@@ -11,7 +11,7 @@ use wgpu::{Backends, BufferDescriptor, BufferUsages, DeviceDescriptor, DeviceTyp
 
 use crate::sph::solver::backend::DeviceError;
 
-/// Largest number of workgroups of a dispatch in one dimension that every card supports.
+/// Number of workgroups that every card supports in one dimension of a dispatch.
 const MAX_GROUPS: u64 = 65_535;
 
 /// The flag `VK_MEMORY_HEAP_DEVICE_LOCAL_BIT` of Vulkan, for memory regions of the card itself.
@@ -101,7 +101,7 @@ fn memory_of(adapter: &wgpu::Adapter) -> Option<u64> {
 }
 
 impl Card {
-    /// Returns all cards of the system, hardware first. The index of a card is the number N in `--device gpu:N`.
+    /// Returns all cards, software renderers last. The index of a card is the number N in `--device gpu:N`.
     pub fn all() -> Vec<CardInfo> {
         adapters().iter().map(describe).collect()
     }

@@ -60,8 +60,8 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// Creates the buffers for the numbers of water particles, of all boundary particles, and of the boundary particles
-    /// of walls (with bed and wavemaker).
+    /// Creates the buffers for `water` water particles and `boundary` boundary particles. Of the boundary particles,
+    /// the first `walls` are those of walls, bed and wavemaker.
     pub fn new(
         card: &Card,
         constants: &Constants,
@@ -72,7 +72,7 @@ impl Memory {
         let parameters = card.uniform("parameters", constants);
         let pressure_alone = card.uniform("parameters of pressure alone", &constants.of_pressure_alone());
         let step = card.uniform("step", &StepConstants { dt: 0.0, reach: 0.0 });
-        // Create the largest buffer first: if the card allows this buffer, it allows the smaller ones, too.
+        // Create the largest buffer first: if the card allows this buffer, it also allows the smaller buffers.
         let records = card.buffer::<[f32; RECORD / 4]>("particle records", water + boundary)?;
         let offset = card.buffer::<[f32; 4]>("water positions", water)?;
         let cell = card.buffer::<[i32; 4]>("water bins", water)?;

@@ -1,5 +1,5 @@
-//! Water particles near surfaces. The card finds these particles. The host, which knows the exact shapes, removes the
-//! velocity components of these particles towards the surfaces.
+//! The card finds the water particles near surfaces. The host, which knows the exact shapes, removes the velocity
+//! components of these particles towards the surfaces.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
@@ -14,7 +14,8 @@ use crate::sph::solver::backend::{DeviceError, NearWater, Surfaces};
 /// Initial capacity of the buffers for particles near surfaces.
 const INITIAL_ROOM: usize = 4096;
 
-/// Distance added to the search distance, for rounding errors of single-precision positions in a long flume [dp].
+/// Distance that is added to the search distance, because single-precision positions have rounding errors in a long
+/// flume [dp].
 const ALLOWANCE: f64 = 0.01;
 
 /// The struct `Surfaces` of `near.wgsl`, with the same fields in the same order.

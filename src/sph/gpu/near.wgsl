@@ -1,4 +1,4 @@
-// Collects the water particles near surfaces for the host (near.rs). The host knows the exact shapes and corrects the
+// Finds the water particles near surfaces for the host (near.rs). The host knows the exact shapes and corrects the
 // velocities of these particles.
 
 // Number of shapes of each kind, in the same order as in the array `shapes`, and dimensions of the surfaces.
@@ -11,9 +11,9 @@ struct Surfaces {
     spheres: u32,
     // Number of rows of the wavemaker; `shapes` has the displacement along x [m].
     rows: u32,
-    // Distance from a surface below which a particle is near the surface, with an allowance for rounding [m].
+    // Particles nearer to a surface than this distance count as near; it includes an allowance for rounding [m].
     min_distance: f32,
-    // Rows of the wavemaker: x position at rest, z of the lowest row, spacing of the rows [m].
+    // x of the wavemaker at zero displacement, z of its lowest row, spacing of its rows [m].
     place: f32,
     lowest: f32,
     dp: f32,
@@ -55,7 +55,7 @@ fn is_near_outline(at: vec2<f32>) -> bool {
         let from_start = at - piece.xy;
         let t = clamp(dot(from_start, along) / dot(along, along), 0.0, 1.0);
         let away = length(from_start - t * along);
-        // If the nearest point of the outline is a corner, a point behind one of the two segments counts as behind.
+        // If the nearest point of the outline is a corner, `at` counts as behind if it is behind at least one segment.
         if away < least + 1e-6 {
             let is_behind = dot(from_start, vec2<f32>(-along.y, along.x)) < 0.0;
             behind = is_behind || (behind && away > least - 1e-6);

@@ -1,8 +1,8 @@
 //! The operations of a time step on a card.
 //!
 //! Operations append commands to a list, which the card executes when the host reads a result. After the first
-//! evaluation of the rates, the host reads the limits of the time step. After the corrector, it reads the rates of the
-//! units and the water near surfaces.
+//! evaluation of the rates, the host reads the limits of the time step. After the corrector, the host reads the rates
+//! of the units and the water near surfaces.
 
 use glam::DVec3;
 
@@ -26,7 +26,7 @@ use crate::sph::solver::time_step::Limits;
 /// Initial values of the buffer `extremes`; see `step.wgsl`.
 const INITIAL_EXTREMES: [u32; 5] = [0, u32::MAX, 0, 0, 0];
 
-/// Factor by which the search radius is increased, for rounding errors [-].
+/// Factor that increases the search radius for neighbours, because of rounding errors [-].
 const ROUNDING: f64 = 1.001;
 
 /// The solver on a card.
@@ -352,7 +352,7 @@ fn rates_of(values: &[[f32; 4]]) -> Vec<Rate> {
     values.iter().map(rate).collect()
 }
 
-/// Returns the largest length of the vectors; NaN if any vector contains NaN.
+/// Returns the length of the longest vector; NaN if any vector contains NaN.
 fn largest(vectors: &[DVec3]) -> f64 {
     vectors.iter().map(|v| v.length_squared()).fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a }).sqrt()
 }

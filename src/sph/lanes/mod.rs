@@ -150,7 +150,7 @@ impl InstructionSet {
             Self::Avx2 if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") => {
                 return unsafe { x86::with_avx2(work) };
             }
-            // SAFETY: the same as for AVX2.
+            // SAFETY: the condition checks that the processor supports the instruction set.
             Self::Avx512 if is_x86_feature_detected!("avx512f") => return unsafe { x86::with_avx512(work) },
             _ => {}
         }

@@ -50,7 +50,7 @@ pub(super) fn list_set_bits_of_byte(bits: u32, base: u32, out: &mut [u32]) {
     }
 }
 
-/// Positions of the set bits of each of the 256 bytes, lowest bit first, followed by zeros.
+/// Positions of the set bits of each of the 256 values of a byte, lowest bit first, followed by zeros.
 static SET_BITS: [[u8; 8]; 256] = set_bits();
 
 const fn set_bits() -> [[u8; 8]; 256] {
@@ -75,7 +75,7 @@ impl Real for Portable {
     fn splat(value: f32) -> Self {
         Self([value; COUNT])
     }
-    // Not `f32::mul_add`: this function is a slow library call on processors without the FMA instruction.
+    // Do not use `f32::mul_add`: on processors without the FMA instruction, it is a slow library call.
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b

@@ -2,8 +2,8 @@
 //!
 //! The list of a cluster contains all particles near its bounding box. In the lane of a member that is too far from a
 //! listed particle, the kernel is zero. The lists are built once per time step and serve both evaluations of the rates.
-//! Therefore the lists contain particles up to the kernel support plus the distance by which two particles can approach
-//! each other in half a time step.
+//! Therefore a list reaches as far as the kernel support plus the distance by which two particles can approach each
+//! other in half a time step.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -84,8 +84,8 @@ pub struct SortedPositions {
 }
 
 impl SortedPositions {
-    /// Copies the positions `points` [m]. Extra entries at the end of the arrays allow reading a whole SIMD register
-    /// from any index.
+    /// Copies the positions `points` [m]. The arrays have extra entries at their end, so that a whole SIMD register can
+    /// be read from any index.
     pub fn set(&mut self, grid: &Grid, points: &[DVec3]) {
         for (axis, values) in self.axes.iter_mut().enumerate() {
             values.resize(points.len() + MAX_LANES, 0.0);

@@ -1,4 +1,5 @@
-//! Packed record of a particle. The pair loop copies the record of a neighbour to all lanes.
+//! The packed record of a particle, with the data that its neighbours need. The pair loop copies the record of a
+//! neighbour to all lanes.
 
 use glam::DVec3;
 

@@ -16,7 +16,7 @@ use crate::sph::terms::momentum::pair_stress;
 
 impl PairLoop {
     /// Adds the pressure of bed, walls and other units across gaps to the accelerations of the unit particles. The
-    /// arguments are as in [`Self::rates`].
+    /// arguments have the same meaning as in [`Self::rates`].
     ///
     /// The lists also contain the particles of the same unit. The forces between these particles cancel in the sum over
     /// the unit.

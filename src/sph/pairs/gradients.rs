@@ -1,5 +1,6 @@
-//! Gradients of density and velocity at the targets a, and measures of the particle distribution around them. With
-//! r_ba = r_b - r_a, the tensor product (x), a field f and the particle concentration C, the code computes:
+//! Gradients of density and velocity at the targets a, and measures of the particle distribution around them. With the
+//! neighbours b, their volumes V_b, the kernel W_ab, r_ba = r_b - r_a, the tensor product (x), a field f and the
+//! particle concentration C, the code computes:
 //!
 //!   M      = sum_b V_b r_ba (x) grad_a W_ab,              the identity in a full, uniform neighbourhood
 //!   grad f = M^-1 sum_b V_b (f_b - f_a) grad_a W_ab,      exact for linear fields

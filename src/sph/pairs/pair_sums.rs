@@ -86,7 +86,7 @@ pub(super) struct Constants {
     nu: f32,
 }
 
-/// State of the members of a cluster, which are the particles "a" of the equations.
+/// State of the members of a cluster (the particles a of the equations), one member per lane.
 pub(super) struct Members<L> {
     velocity: [L; 3],
     excess_density: L,
@@ -99,7 +99,7 @@ pub(super) struct Members<L> {
     stress: [L; 6],
 }
 
-/// Position of a neighbour "b" relative to the members.
+/// Position of a neighbour b relative to the members.
 pub(super) struct Near<L> {
     /// r_ab [m].
     r: [L; 3],

@@ -14,7 +14,7 @@ use crate::sph::parameters::BoundaryCondition;
 use crate::sph::terms::density_diffusion::DensityDiffusion;
 use crate::sph::terms::viscosity::Viscosity;
 
-/// Number of neighbours in each partial sum. Partial sums reduce rounding errors.
+/// Number of neighbours in each partial sum over neighbours. Partial sums reduce rounding errors.
 const BLOCK: usize = 32;
 
 impl PairLoop {

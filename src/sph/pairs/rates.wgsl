@@ -42,7 +42,7 @@ fn pair(sums: ptr<function, Sums>, a: Record, b: Record, r: vec3<f32>, r2: f32, 
 }
 
 fn add_range(total: ptr<function, Sums>, a: Record, first: u32, end: u32) {
-    // Partial sums reduce rounding errors.
+    // Compute a partial sum over the range first, because partial sums reduce rounding errors.
     var sums: Sums;
     for (var j = first; j < end; j++) {
         let r = difference(a.place, records[j].place);

@@ -2,17 +2,17 @@
 //!
 //! The wetted outline of the flume (end wall, bed and mound, end wall) is a polyline in x and z. Layer k = 0, 1, 2
 //! consists of points at the distance (k + 1/2) dp behind this outline, on lines parallel to its segments
-//! ("parallels"). Under a crest, a parallel ends where another segment is nearer; the remaining part is called a
-//! stretch. Behind a concave corner, an arc joins two parallels. Stretches and arcs are divided into equal pieces, one
-//! per particle, so that the particle volumes fill the layers exactly. Every particle stores the exact vector to the
-//! nearest point of the outline. Behind a concave corner, this point is the corner (English et al. 2022).
+//! ("parallels"). Under a crest, a parallel ends where another segment is nearer than this distance; the remaining part
+//! is called a stretch. Behind a concave corner, an arc joins two parallels. Stretches and arcs are divided into equal
+//! pieces, one per particle, so that the particle volumes fill the layers exactly. Every particle stores the exact
+//! vector to the nearest point of the outline. Behind a concave corner, this point is the corner (English et al. 2022).
 
 use glam::{DVec2, DVec3};
 
 use super::boundary::BoundaryParticle;
 
-/// Tolerance for rounding errors [-]: of the distance to the outline, relative to the depth behind the outline, and of
-/// the length of a piece, relative to dp.
+/// Tolerance for rounding errors [-]: of the distance from the outline, relative to the depth behind the outline.
+/// Pieces that are shorter than this value times dp are left out.
 const ROUNDING: f64 = 1e-6;
 
 /// Spacing of the points at which the distance from a parallel to the outline is checked [dp].
@@ -287,20 +287,20 @@ mod tests {
             let area: f64 = outline.layers(dp, 3).iter().map(|(_, length)| length * dp).sum();
             let length: f64 = outline.points.windows(2).map(|p| p[0].distance(p[1])).sum();
             let turns = outline.points.windows(3).map(|p| left_normal(&p[0..2]).angle_to(left_normal(&p[1..3])));
-            // Compared with a straight outline, down to the depth d, a concave corner that turns by the angle t adds
-            // the area t d^2 / 2, and a convex corner removes tan(t / 2) d^2.
+            // `exact` is the area of layers that reach the depth d behind the outline. A concave corner that turns by
+            // the angle t adds t d^2 / 2 to length times d, and a convex corner removes tan(t / 2) d^2.
             let at_corners: f64 = turns.map(|t| if t > 0.0 { 0.5 * t } else { (0.5 * t).tan() }).sum();
             let depth = 3.0 * dp;
             let exact = length * depth + at_corners * depth * depth;
-            // Limit 1e-5: the end of a stretch has a tolerance, because points may be nearer to the outline by 1e-6
-            // of their depth.
+            // Limit 1e-5: the end of a stretch has a tolerance, because its points can be nearer to the outline by
+            // 1e-6 of their depth.
             assert!((area / exact - 1.0).abs() < 1e-5, "{area} {exact}");
         }
     }
 
     #[test]
     fn free_slip_is_allowed_on_flat_beds_and_walls_but_not_at_edges_and_flanks() {
-        // A quay with an edge at (1, 0.5), and with concave corners at its foot and at the end walls.
+        // The outline is a quay with an edge at (1, 0.5), and with concave corners at its foot and at the end walls.
         let quay = [[0.0, 1.0], [0.0, 0.5], [1.0, 0.5], [1.0, 0.0], [3.0, 0.0], [3.0, 1.0]];
         let outline = Outline::new(quay.map(DVec2::from_array).to_vec());
         let across = Across { width: 0.02, count: 1, walls: false };
@@ -308,7 +308,7 @@ mod tests {
         for particle in outline_particles(&outline, &across, 0.02, 3, reach) {
             let foot = particle.position + particle.to_surface;
             let from_edge = foot.distance(DVec3::new(1.0, foot.y, 0.5));
-            // Behind a concave corner, the vector to the surface can have any direction.
+            // Behind a concave corner, `to_surface` can have any direction, so free slip is not checked there.
             let behind_corner = particle.to_surface.x.abs().min(particle.to_surface.z.abs()) > 1e-9;
             assert!(behind_corner || particle.allows_free_slip == (from_edge >= reach), "{foot}");
         }

@@ -18,7 +18,7 @@ pub struct Boundary {
     /// Volume [m3].
     pub volume: Vec<f64>,
     /// True if free slip is allowed at the particle: on beds flatter than 1:4 and on vertical walls. False on steeper
-    /// beds, and at convex edges, on obstacles and, by default, on units. At edges, obstacles and units, a particle
+    /// beds, at convex edges, on obstacles and, by default, on units. At edges, obstacles and units, a particle
     /// represents surfaces of several directions; free slip along all of them would let water converge inside the
     /// solid.
     pub allows_free_slip: Vec<bool>,
@@ -26,7 +26,7 @@ pub struct Boundary {
     pub density: Vec<f64>,
     /// Index range of the piston particles.
     piston: Range<usize>,
-    /// Piston row of each piston particle.
+    /// Row of each piston particle. A row is a level of the piston with its own displacement.
     piston_row: Vec<u32>,
     /// Index range of the particles of each unit.
     units: Vec<Range<usize>>,

@@ -51,7 +51,7 @@ mod tests {
     fn thin_boxes_are_filled_and_thick_boxes_are_hollow() {
         let thin = AxisBox::free(DVec3::ZERO, DVec3::new(0.15, 0.15, 0.1));
         let particles = box_particles(&thin, 0.02, 0.06);
-        // Particles along an edge of 0.15 m: 0.15 / 0.02 = 7.5, which rounds to 8.
+        // An edge of 0.15 m has 8 particles, because 0.15 / 0.02 = 7.5 is rounded to 8.
         assert_eq!(particles.len(), 8 * 8 * 5);
         let total: f64 = particles.iter().map(|p| p.volume).sum();
         assert!((total / thin.volume() - 1.0).abs() < 1e-12);

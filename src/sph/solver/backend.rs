@@ -63,7 +63,7 @@ pub struct WaterExtremes {
 /// [m].
 #[derive(Debug, Clone, Default)]
 pub struct Surfaces {
-    /// Distance from a surface below which water particles lose the velocity component towards this surface.
+    /// A water particle nearer to a surface than this distance loses its velocity component towards the surface.
     pub min_distance: f64,
     /// x and z of both ends of each segment of the outline of bed and walls.
     pub outline: Vec<[f64; 4]>,
@@ -71,7 +71,7 @@ pub struct Surfaces {
     pub obstacles: Vec<[DVec3; 2]>,
     /// Centre and radius of a sphere around each part of the units; the radius includes `min_distance`.
     pub bounding_spheres: Vec<(DVec3, f64)>,
-    /// Wavemaker, if any: x at zero displacement, z of its lowest row, and displacement of each row along x.
+    /// Wavemaker, if any: its x at zero displacement, z of its lowest row, and displacement of each row along x.
     pub wavemaker: Option<(f64, f64, Vec<f64>)>,
     /// Distance between the side walls, if there are any; the first side wall is at y = 0.
     pub sides: Option<f64>,
@@ -115,10 +115,11 @@ pub trait Backend: Send {
     /// Computes the rates of water and units.
     fn rates(&mut self);
 
-    /// Returns the largest acceleration and signal speed of the water.
+    /// Returns the largest acceleration and the largest signal speed of the water, which limit the time step.
     fn limits(&mut self) -> Result<Limits, DeviceError>;
 
-    /// Predictor, equations 8.1, 8.2 and 9.1; `move_boundary` moves the boundary to the half step.
+    /// Predictor, equations 8.1, 8.2 and 9.1: computes the state at the half step. `move_boundary` moves the boundary
+    /// to its positions at the half step.
     fn predict(
         &mut self,
         dt: f64,

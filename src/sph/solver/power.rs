@@ -1,8 +1,8 @@
-//! Power that the water receives at one moment, and divergence of the water velocity.
+//! Computes the power that the water receives at one moment, and the divergence of the water velocity.
 //!
-//! The energy of a water particle is its kinetic energy plus its internal energy, which changes at the rate
-//! p_a / rho_a^2 d rho_a/dt per mass. Pressure forces between water particles conserve the sum of their energies.
-//! Therefore the sum over all water particles
+//! The energy of a water particle a is its kinetic energy plus its internal energy. The internal energy per mass
+//! changes at the rate p_a / rho_a^2 d rho_a/dt. Pressure forces between water particles conserve the sum of the
+//! energies of these particles. Therefore the sum over all water particles
 //!
 //!   sum_a m_a (v_a . dv_a/dt + p_a / rho_a^2 d rho_a/dt)     without viscosity and diffusion
 //!

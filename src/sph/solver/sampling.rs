@@ -8,11 +8,11 @@ use crate::sph::particles::water::Water;
 use crate::sph::terms::equation_of_state::Tait;
 use crate::sph::terms::kernel::Wendland;
 
-/// Sum of W V at the free surface [-]: half a neighbourhood.
+/// Sum of W V at the free surface [-]: half its value inside the water.
 const SURFACE: f64 = 0.5;
 
-/// Smallest determinant for which the linear fit is used, relative to a full neighbourhood with the same sum of W V
-/// [-]; compare [`mdbc`](crate::sph::boundary::mdbc).
+/// Smallest determinant of the equations for which the linear fit is used, relative to the determinant of a full
+/// neighbourhood with the same sum of W V [-]; compare [`mdbc`](crate::sph::boundary::mdbc).
 const MIN_DETERMINANT: f64 = 0.01;
 
 /// Second moment of the kernel along each axis, the integral of W x^2 over the volume [h^2]. The value holds in three
@@ -45,7 +45,7 @@ pub struct Sample {
 
 impl Sampler<'_> {
     /// Calls `f` for each water particle within the kernel support of a point, and returns the accumulated value. `f`
-    /// takes the value so far, the vector from the point to the particle [m] and the index of the particle.
+    /// takes the value accumulated so far, the vector from the point to the particle [m] and the index of the particle.
     fn fold<T>(&self, point: DVec3, start: T, mut f: impl FnMut(T, DVec3, usize) -> T) -> T {
         let (grid, reach) = (self.grid, self.kernel.support());
         let [nx, ny, _] = grid.count;
@@ -89,8 +89,8 @@ impl Sampler<'_> {
     /// weighted mean if the fit is ill-conditioned. Returns `None` if the point is dry.
     pub fn sample(&self, point: DVec3) -> Option<Sample> {
         let per_h = 1.0 / self.kernel.h;
-        // Sums, with the weight V W, of the products of (1, x, y, z) with (1, x, y, z, p, u, v, w); x, y, z in units of
-        // h.
+        // Sums, with the weight V W, of the products of (1, x, y, z) with (1, x, y, z, p, u, v, w) with x, y, z in
+        // units of h, the pressure p and the velocity components u, v, w.
         let mut moments = self.fold(point, [[0.0; 8]; 4], |mut sums, r, b| {
             let weight = self.weight(r, b);
             let [x, y, z] = (r * per_h).to_array();
@@ -104,7 +104,7 @@ impl Sampler<'_> {
             sums
         });
         let occupied = moments[0][0];
-        // The sum of W V is 0.2 slightly above a calm free surface; points with a smaller sum count as dry.
+        // The sum of W V is 0.2 slightly above a calm free surface; a point with a smaller sum counts as dry.
         if occupied < 0.2 {
             return None;
         }

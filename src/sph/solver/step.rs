@@ -5,11 +5,11 @@
 //!
 //! In Mitsui et al. (2023), equations 8.3, 8.4 and 9.2 have half-step values on their right-hand sides, which would
 //! count half a time step twice. As in equation 7.2 and in Parshikov et al. (2000), this code uses the values at the
-//! start of the time step:
+//! start of the time step (index n):
 //!
 //!   v^{n+1} = v^n + dt dv^{n+1/2}/dt,   r^{n+1} = r^n + dt (v^n + v^{n+1})/2,   rho^{n+1} = rho^n (2 - eps)/(2 + eps),
 //!
-//! where eps = -dt (d rho/dt) / rho at the half step.
+//! where eps = -dt (d rho/dt) / rho at the half step (index n+1/2). v is the velocity, r the position, rho the density.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -231,7 +231,7 @@ impl Solver {
         rates
     }
 
-    /// Returns the largest acceleration and signal speed of the water.
+    /// Returns the largest acceleration and the largest signal speed of the water, which limit the time step.
     pub fn limits(&self) -> Limits {
         Limits::of(&self.records[..self.water.rates.len()], &self.water.rates, self.parameters.gravity)
     }
@@ -282,7 +282,7 @@ impl Solver {
         }
     }
 
-    /// Returns index and d rho / dt [kg/(m3 s)] of each boundary particle.
+    /// Returns the index of each boundary particle and its d rho / dt [kg/(m3 s)].
     fn boundary_rates(&self) -> Vec<(usize, f64)> {
         let rates = |group: &Group, offset: usize| {
             let pairs = group.bins.order.iter().zip(&group.rates);
@@ -375,8 +375,8 @@ fn acceleration(rate: &Rate) -> DVec3 {
     DVec3::from_array(rate.acceleration.map(f64::from))
 }
 
-/// Returns the density at the end of a time step [kg/m3], rho (2 - eps) / (2 + eps) with eps = -dt (d rho/dt) / rho at
-/// the half step (equation 9.2).
+/// Returns the density at the end of a time step [kg/m3] (equation 9.2): rho (2 - eps) / (2 + eps) with `rho` at the
+/// start of the time step, and eps = -dt (d rho/dt) / rho at the half step.
 fn end_density(rho: f64, half_rho: f64, rate: f64, dt: f64) -> f64 {
     let epsilon = -dt * rate / half_rho;
     rho * (2.0 - epsilon) / (2.0 + epsilon)

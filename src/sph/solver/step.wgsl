@@ -1,4 +1,4 @@
-// The symplectic position Verlet step, equations 7 to 9 (step.rs).
+// Computes the symplectic position Verlet step, equations 7 to 9 (step.rs).
 
 @group(0) @binding(1) var<uniform> step: Step;
 @group(0) @binding(2) var<storage, read_write> offset: array<vec4<f32>>;
@@ -8,14 +8,15 @@
 @group(0) @binding(6) var<storage, read_write> half_offset: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> half_motion: array<vec4<f32>>;
 // Five values: bit pattern of the largest speed [m/s]; lowest and highest rho - rho0 as integers (see `ordered`);
-// 1 if a particle has left the domain or is not finite, else 0; number of particles near surfaces (near.wgsl).
+// 1 if a particle has left the domain or has a state that is not finite, else 0; number of particles near surfaces
+// (near.wgsl).
 @group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>, 5>;
 
 fn with_gravity(rate: vec4<f32>) -> vec3<f32> {
     return rate.xyz - vec3<f32>(0.0, 0.0, parameters.gravity);
 }
 
-// Predictor, equations 8.1, 8.2 and 9.1.
+// Predictor, equations 8.1, 8.2 and 9.1: computes the state at the half step.
 @compute @workgroup_size(64)
 fn predict(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
            @builtin(local_invocation_index) local: u32) {
@@ -63,7 +64,7 @@ fn reduce_extremes(local: u32) {
     }
 }
 
-// Corrector, equations 8.3, 8.4 and 9.2.
+// Corrector, equations 8.3, 8.4 and 9.2: computes the state at the end of the time step.
 @compute @workgroup_size(64)
 fn correct(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
            @builtin(local_invocation_index) local: u32) {

@@ -1,6 +1,7 @@
 //! Variable time step (Monaghan et al. 1999): dt = C min(dt_f, dt_cv), with the Courant number C and the limits
-//! dt_f = min_a sqrt(h / |dv_a/dt|) and dt_cv = min_a h / (c_a + max_b |h v_ab . r_ab / (r_ab^2 + 0.01 h^2)|).
-//! With laminar viscosity nu, dt is also at most h^2 / (8 nu) (Morris et al. 1997).
+//! dt_f = min_a sqrt(h / |dv_a/dt|) and dt_cv = min_a h / (c_a + max_b |h v_ab . r_ab / (r_ab^2 + 0.01 h^2)|). a is a
+//! water particle, b one of its neighbours; [`terms`](crate::sph::terms) defines the other symbols. With laminar
+//! viscosity nu, dt is also at most h^2 / (8 nu) (Morris et al. 1997).
 
 use rayon::prelude::*;
 
@@ -11,7 +12,7 @@ use crate::sph::{neighbours::records::Record, pairs::rate::Rate, parameters::Par
 pub struct Limits {
     /// Largest acceleration, max |dv/dt| [m/s2].
     pub acceleration: f64,
-    /// Largest signal speed, max_a (c_a + max_b |mu_ab|) with mu_ab of equation 3, for all pairs [m/s].
+    /// Largest signal speed, max_a (c_a + max_b |mu_ab|), with mu_ab of equation 3, also if a and b move apart [m/s].
     pub signal_speed: f64,
 }
 

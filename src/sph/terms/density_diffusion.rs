@@ -1,11 +1,14 @@
 //! Equations 4 and 5: density diffusion of Fourtakas et al. (2019),
 //! D_a = 2 delta h c sum_b (rho_ba^T - rho_ab^H) (r_ab . grad_a W_ab) / r_ab^2 V_b.
 //!
-//! Two details differ from these printed equations. (1) With rho_ba = rho_b - rho_a and r_ab = r_a - r_b, the sum is
-//! negative where neighbours are denser, so the printed sign would amplify density differences. This code uses the
-//! opposite sign, as in Molteni & Colagrossi (2009). (2) The printed equation 5, rho_ab^H = rho0 g z_ab, is a pressure.
-//! This code uses the density at this pressure from the equation of state,
-//! rho^H = rho0 [(1 + gamma rho0 g z_ab / (rho0 c0^2))^(1/gamma) - 1].
+//! delta is a coefficient, rho_ba^T the difference of the total densities, and rho_ab^H the hydrostatic difference.
+//! [`terms`](super) defines the other symbols.
+//!
+//! Three details of this code differ from these printed equations. (1) With rho_ba = rho_b - rho_a and
+//! r_ab = r_a - r_b, the sum is negative where neighbours are denser, so the printed sign would amplify density
+//! differences. This code uses the opposite sign, as in Molteni & Colagrossi (2009). (2) The printed equation 5,
+//! rho_ab^H = rho0 g z_ab, is a pressure. This code uses the density at this pressure from the equation of state,
+//! rho_ab^H = rho0 [(1 + gamma rho0 g z_ab / (rho0 c0^2))^(1/gamma) - 1]. (3) For c, this code uses the constant c0.
 //!
 //! Under DBC, boundary particles repel the water by their excess density. As in DualSPHysics, density diffusion
 //! excludes these particles and the water within their kernel support. If they took part, diffusion would remove the
@@ -19,7 +22,7 @@ use crate::sph::lanes::Real;
 pub enum DensityDiffusion {
     /// No density diffusion.
     None,
-    /// Diffuses the total density (Molteni & Colagrossi 2009): rho^H = 0.
+    /// Diffuses the total density (Molteni & Colagrossi 2009): rho_ab^H = 0.
     MolteniColagrossi,
     /// Diffuses the deviation from the hydrostatic density (Fourtakas et al. 2019).
     Fourtakas,
@@ -35,9 +38,10 @@ pub struct Diffusion {
     pub kind: DensityDiffusion,
     /// Strength of the diffusion, 2 delta h c0 [m2/s].
     strength: f32,
-    /// First coefficient of the binomial series of rho^H, rho0 g / c0^2 [kg/m4]; zero for other forms than `Fourtakas`.
+    /// Factor A = rho0 g / c0^2 of rho_ab^H = A z_ab (1 - B z_ab) [kg/m4]; zero for other forms than `Fourtakas`. These
+    /// are the first two terms of the binomial series of rho_ab^H.
     hydrostatic: f32,
-    /// Second coefficient of the binomial series of rho^H, (gamma - 1) g / (2 c0^2) [1/m].
+    /// Factor B = (gamma - 1) g / (2 c0^2) of the same formula [1/m].
     curvature: f32,
 }
 
@@ -55,7 +59,7 @@ impl Diffusion {
         }
     }
 
-    /// Returns the coefficients of rho^H: rho0 g / c0^2 [kg/m4] and (gamma - 1) g / (2 c0^2) [1/m].
+    /// Returns the factors A [kg/m4] and B [1/m] of rho_ab^H = A z_ab (1 - B z_ab).
     #[cfg(feature = "gpu")]
     pub(in crate::sph) fn hydrostatic(&self) -> [f32; 2] {
         [self.hydrostatic, self.curvature]

@@ -1,9 +1,10 @@
 //! Quintic Wendland kernel W (Wendland 1995). The radius of its support is 2h.
 //!
-//! W(q) = alpha_D (1 - q/2)^4 (2q + 1), q = r/h <= 2, with alpha_D = 21 / (16 pi h^3) in three dimensions. A
-//! two-dimensional flume is a single layer of particles with thickness t. With alpha_D = 7 / (4 pi h^2 t), volumes,
-//! masses and forces keep their units, and every sum over the layer equals the two-dimensional sum. The gradient is
-//! grad_a W_ab = G(r) r_ab with G = -5 alpha_D / h^2 (1 - q/2)^3. This form needs no division by r.
+//! W = alpha_D (1 - q/2)^4 (2q + 1) for q = r/h <= 2, with the distance r of two particles a and b and the smoothing
+//! length h. In three dimensions, alpha_D = 21 / (16 pi h^3). A two-dimensional flume is a single layer of particles
+//! with thickness t. With alpha_D = 7 / (4 pi h^2 t), volumes, masses and forces keep their units, and every sum over
+//! the layer equals the two-dimensional sum. The gradient with respect to r_a is grad_a W_ab = G(r) r_ab with
+//! r_ab = r_a - r_b and G = -5 alpha_D / h^2 (1 - q/2)^3. This form needs no division by r.
 
 use std::f64::consts::PI;
 

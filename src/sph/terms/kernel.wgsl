@@ -11,7 +11,7 @@ fn kernel_shape(closeness: f32) -> f32 {
     return square * square * (5.0 - 4.0 * closeness);
 }
 
-// Returns G without its constant factor -5 alpha_D / h^2; grad_a W_ab = G r_ab.
+// Returns G without its constant factor -5 alpha_D / h^2; grad_a W_ab = G r_ab with r_ab = r_a - r_b.
 fn gradient_shape(closeness: f32) -> f32 {
     return closeness * closeness * closeness;
 }

@@ -11,6 +11,12 @@
 //! | [`equation_of_state`] | 6: Tait |
 //! | [`wall_slip`] | velocity of boundary particles in the equations of the water |
 //! | [`shifting`] | particle shifting |
+//!
+//! Symbols: a is the particle for which a term is computed, b one of its neighbours. r is the position, v the velocity,
+//! m the mass, rho the density, V = m / rho the volume, p the pressure, c the speed of sound and g the gravitational
+//! acceleration. Differences are r_ab = r_a - r_b, v_ab = v_a - v_b and rho_ba = rho_b - rho_a. W_ab is the kernel at
+//! the distance |r_ab|, grad_a W_ab its gradient with respect to r_a, and h the smoothing length. rho0 is the reference
+//! density, c0 the speed of sound at rho0 and gamma the exponent of the equation of state.
 
 pub mod continuity;
 pub mod density_diffusion;

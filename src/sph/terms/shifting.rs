@@ -2,9 +2,9 @@
 //!
 //!   dr = -A h |v| dt grad C,   C = sum_b V_b W_ab,
 //!
-//! from dense to sparse regions of particles. A is a coefficient, v the velocity of the particle and C the particle
-//! concentration. Near the free surface, where div r = sum_b V_b r_ba . grad_a W_ab is
-//! smaller than in a full neighbourhood, the shift decreases to zero.
+//! from dense to sparse regions of particles. A is a coefficient, h the smoothing length, v the velocity of the
+//! particle, dt the time step and C the particle concentration. Near the free surface, the sum
+//! div r = sum_b V_b r_ba . grad_a W_ab is smaller than in a full neighbourhood, and the shift decreases to zero.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ use glam::DVec3;
 /// count as free surface and are not shifted.
 const SURFACE: [f64; 2] = [1.5, 2.75];
 
-/// Largest shift as a share of the particle spacing.
+/// Largest shift in one time step, as a share of the particle spacing [-].
 const MAX_SHIFT: f64 = 0.1;
 
 /// Constants of the shift.

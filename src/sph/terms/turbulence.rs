@@ -3,10 +3,11 @@
 //!
 //!   tau = 2 nu_t rho (S - tr S / 3) - 2/3 rho C_I D^2 |S|^2,   nu_t = (C_s D)^2 |S|,   |S| = sqrt(2 S : S),
 //!
-//! where S is the strain rate and D the filter width. The acceleration is
+//! where nu_t is the eddy viscosity, S the strain rate, tr S its trace, rho the density and D the filter width. C_s and
+//! C_I are coefficients. The acceleration of a particle a by this stress is
 //! sum_b m_b (tau_a / rho_a^2 + tau_b / rho_b^2) grad_a W_ab.
 
-/// Constants of the turbulence closure.
+/// Constants of the turbulence model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Smagorinsky {
     /// Factor (C_s D)^2 of the eddy viscosity [m2].
@@ -16,13 +17,13 @@ pub struct Smagorinsky {
 }
 
 impl Smagorinsky {
-    /// Creates the closure with C_s = 0.12 and C_I = 0.0066; the filter width D is the particle spacing `dp` [m].
+    /// Creates the model with C_s = 0.12 and C_I = 0.0066; the filter width D is the particle spacing `dp` [m].
     pub fn new(dp: f64) -> Self {
         Self { eddy: (0.12 * dp).powi(2), isotropic: 0.0066 * dp * dp }
     }
 
-    /// Returns tau / rho^2 [m5/(kg s2)] in the order xx, yy, zz, xy, xz, yz. `gradient` is d v_i / d x_j [1/s], `rho`
-    /// the density [kg/m3].
+    /// Returns tau / rho^2 [m5/(kg s2)] in the order xx, yy, zz, xy, xz, yz. `gradient` is d v_i / d x_j [1/s] with
+    /// the row i and the column j, `rho` the density [kg/m3].
     pub fn specific_stress(&self, gradient: [[f64; 3]; 3], rho: f64) -> [f64; 6] {
         let strain = |i: usize, j: usize| 0.5 * (gradient[i][j] + gradient[j][i]);
         let square: f64 = (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| strain(i, j).powi(2)).sum();

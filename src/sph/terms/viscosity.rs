@@ -1,8 +1,9 @@
 //! Equation 3: artificial viscosity (Monaghan 1992),
 //! Pi_ab = -alpha c_ab mu_ab / rho_ab with mu_ab = h v_ab . r_ab / (r_ab^2 + 0.01 h^2) where v_ab . r_ab < 0, else 0;
-//! c_ab and rho_ab are the mean speed of sound and the mean density of both particles.
+//! alpha is a coefficient; c_ab and rho_ab are the mean speed of sound and the mean density of the particles a and b.
+//! [`terms`](super) defines the other symbols.
 //!
-//! The alternative is laminar viscosity, in two forms. The acceleration of Lo & Shao (2002),
+//! The alternative is laminar viscosity nu, in two forms. The acceleration of Lo & Shao (2002),
 //!
 //!   sum_b m_b 4 nu (r_ab . grad_a W_ab) / ((rho_a + rho_b) r_ab^2) v_ab,
 //!
@@ -13,8 +14,8 @@
 //!
 //! acts along the line between the particles. Inside the water, both forms converge to nu div grad v where div v = 0
 //! (Espanol & Revenga 2003; Hu & Adams 2006). Only the second form conserves angular momentum. At a free surface, only
-//! the second form has the dissipation of a Newtonian fluid: 2 mu S : S per volume, not mu |grad v|^2 (Colagrossi et
-//! al. 2011).
+//! the second form has the dissipation of a Newtonian fluid: 2 rho nu S : S per volume with the strain rate S, not
+//! rho nu |grad v|^2 (Colagrossi et al. 2011).
 
 use super::turbulence::Smagorinsky;
 use crate::sph::lanes::Real;
@@ -52,22 +53,23 @@ pub fn approach_rate<R: Real>(h: f32, v_dot_r: R, r2: R) -> R {
 /// `rate` is the [`approach_rate`] [1/s].
 #[inline(always)]
 pub fn viscous_stress<R: Real>(alpha: f32, h: f32, rate: R, c_a: R, c_b: R, rho_a: R, rho_b: R) -> R {
-    // 0.25 is the product of the factors 1/2 of both means. The mean density rho_ab replaces rho_a rho_b / rho_ab; the
-    // difference is (rho_a - rho_b)^2 / (4 rho_ab). In weakly compressible flow it is below 1e-5 of the mean density,
-    // which is less than single precision resolves in the sum.
+    // 0.25 is the product of the factors 1/2 of the means c_ab and rho_ab. The mean density rho_ab replaces
+    // rho_a rho_b / rho_ab; the difference is (rho_a - rho_b)^2 / (4 rho_ab). In weakly compressible flow, this
+    // difference is below 1e-5 of rho_ab, which is less than single precision resolves in the sum.
     (c_a + c_b) * (rho_a + rho_b) * (R::splat(-0.25 * alpha * h) * rate.min(R::splat(0.0)))
 }
 
-/// Returns the factor of v_ab in the laminar acceleration, multiplied by rho_a / (V_b G) [Pa s]. Because grad_a W_ab =
-/// G r_ab, the term has no singularity. It therefore needs no 0.01 h^2 in the denominator, which would reduce the
-/// viscosity by 1 %.
+/// Returns the factor of v_ab in the acceleration of Lo & Shao, multiplied by rho_a / (V_b G) [Pa s]. Because
+/// grad_a W_ab = G r_ab, the denominator r_ab^2 cancels. Therefore this form needs no term 0.01 h^2 in the denominator,
+/// which would reduce the viscosity by 1 %.
 #[inline(always)]
 pub fn laminar_factor<R: Real>(nu: f32, rho_a: R, rho_b: R) -> R {
     R::splat(4.0 * nu) * rho_a * rho_b / (rho_a + rho_b)
 }
 
 /// Returns rho_a rho_b Pi_ab [Pa] of Monaghan & Gingold's form, Pi_ab = -2 K nu / (rho_a + rho_b) times the
-/// [`approach_rate`] [1/s]. The stress can have either sign, because this form also resists separation.
+/// [`approach_rate`] `rate` [1/s]. `k_nu` is K nu [m2/s]. The stress can have either sign, because this form also
+/// resists separation.
 #[inline(always)]
 pub fn monaghan_gingold_stress<R: Real>(k_nu: f32, rate: R, rho_a: R, rho_b: R) -> R {
     R::splat(-2.0 * k_nu) * rate * rho_a * rho_b / (rho_a + rho_b)

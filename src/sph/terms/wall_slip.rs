@@ -1,5 +1,5 @@
-//! Wall slip under mDBC: the velocity that a boundary particle has in the equations of the water. It follows from the
-//! water velocity at the ghost node and the velocity of the wall.
+//! Computes the velocity that a boundary particle has in the equations of the water under mDBC (wall slip). This
+//! velocity follows from the water velocity at the ghost node and the velocity of the wall.
 
 use glam::DVec3;
 
@@ -26,10 +26,10 @@ pub enum WallSlip {
 
 impl WallSlip {
     /// Returns the velocity of a boundary particle [m/s]. `wall` is the velocity of the wall [m/s], `ghost` the
-    /// velocity of the water at the ghost node (`None` if dry), and `to_surface` the vector to the surface [m]. For a
-    /// dry node, the function returns the velocity of the wall. In thin sheets of water (trust 0), no velocity is
-    /// mirrored, because the sheet would bounce off its own mirrored velocity. If `free_slip` is false (see
-    /// [`Boundary::allows_free_slip`]), `FreeSlip` uses the tangential velocity of the wall.
+    /// velocity of the water at the ghost node (`None` if dry), and `to_surface` the vector from the particle to the
+    /// surface [m]. For a dry node, the function returns the velocity of the wall. In thin sheets of water (trust 0),
+    /// no velocity is mirrored, because the sheet would bounce off its own mirrored velocity. If `free_slip` is false
+    /// (see [`Boundary::allows_free_slip`]), `FreeSlip` uses the tangential velocity of the wall.
     ///
     /// [`Boundary::allows_free_slip`]: crate::sph::particles::boundary::Boundary::allows_free_slip
     pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3, free_slip: bool) -> DVec3 {

@@ -10,7 +10,7 @@ use super::error::ExternalError;
 const GAP: f64 = 5.0;
 
 /// Largest plausible velocity divided by sqrt(g d), where d is the still water depth [-]. This ratio stays below 2 in
-/// breaking crests; if it is above this limit, the unit in the file is wrong.
+/// breaking crests. If the ratio exceeds 3, the unit in the file is wrong.
 const FASTEST: f64 = 3.0;
 
 /// Largest allowed distance of a level from the water, relative to the still water depth [-]. It is not zero because

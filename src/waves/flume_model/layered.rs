@@ -2,7 +2,8 @@
 //!
 //! Zijlema, Stelling & Smit (2011), "SWASH: An operational public domain code for simulating wave fields and rapidly
 //! varied flows in coastal waters"; Stelling & Zijlema (2003); Zijlema & Stelling (2005, 2008). All layers of a column
-//! are equally thick. The depth H is stored in the cells, u at the faces, w in the middle of each layer:
+//! are equally thick. The depth H is stored in the cells, the horizontal velocity u_m of layer m at the faces, and the
+//! vertical velocity w_m in the middle of layer m:
 //!
 //! ```text
 //! dH/dt + dx sum(h_m u_m) = 0
@@ -11,8 +12,8 @@
 //! ```
 //!
 //! Here dx is the derivative along x, adv the advection term and eta the surface level. Layer m has the depth
-//! h_m = H / K and its middle at the level z_m. q_m is the non-hydrostatic pressure at the bottom of layer m, divided
-//! by the density, and q_bar_m is its mean over the bottom and top of the layer.
+//! h_m = H / K and its middle at the level z_m. q_m is the non-hydrostatic pressure, divided by the density, at the
+//! bottom of layer m; q_bar_m = (q_m + q_{m+1}) / 2.
 //!
 //! | part | method | module |
 //! | --- | --- | --- |
@@ -361,8 +362,8 @@ mod tests {
                 highest = highest.max(flume.surface_m(0.01));
             }
         }
-        // Leapfrog scheme and pressure conserve energy. Only upwinding reduces the height, by less than 1 % in the nine
-        // periods of the test.
+        // Leapfrog scheme and pressure conserve energy. Only the upwind advection reduces the wave height, by less than
+        // 1 % in the nine periods of the test.
         assert!((highest / 1e-4 - 1.0).abs() < 0.01, "{highest}");
     }
 }

@@ -6,7 +6,7 @@ use super::layered::{Column, SurfacePoint};
 use crate::geometry::profile::Profile;
 
 /// Depth below which a point counts as dry in interpolation [m]. At a corner of the bed, the mean bed level of a cell
-/// differs from the profile; in thinner films this difference would distort the result.
+/// differs from the profile; in films below this depth, the difference would distort the result.
 const FILM_M: f64 = 1e-3;
 
 /// Wave gauges, and the flow in a window (a range of x), recorded at a fixed interval.
@@ -157,8 +157,8 @@ impl FlumeRecord {
         self.stencils(x, t).interpolate(|i| self.u[i * k..(i + 1) * k].iter().sum::<f64>() / k as f64)
     }
 
-    /// Height of the crest at a gauge above still water [m] and its time [s], from the parabola through the highest
-    /// record and its two neighbours.
+    /// Height above still water [m] of the crest at a gauge, and time of the crest [s], from the parabola through the
+    /// highest record and its two neighbours.
     pub fn crest(&self, gauge: usize) -> (f64, f64) {
         let series = &self.gauge_elevations_m[gauge];
         let highest = (0..series.len()).max_by(|&a, &b| series[a].total_cmp(&series[b])).unwrap_or(0);

@@ -11,10 +11,10 @@ use crate::waves::flume_model::record::{FlumeRecord, SurfaceProfile};
 use crate::waves::theory::regular::WaveError;
 use crate::waves::theory::solitary::SolitaryWave;
 
-/// Largest number of layers; two or three resolve the vertical profile of long waves.
+/// Largest number of layers; two or three layers resolve the velocity profile of long waves over the depth.
 pub const MAX_LAYERS: usize = 8;
-/// Courant number of a long wave in the largest depth [-]. The scheme is stable up to 1. Up to about 0.4, the errors of
-/// the time step are smaller than the errors of the grid.
+/// Courant number of a long wave in the largest depth [-]. The scheme is stable up to the Courant number 1. Up to about
+/// 0.4, the errors of the time step are smaller than the errors of the grid.
 const COURANT: f64 = 0.4;
 /// Length over which the cells follow the piston, in strokes. At this length, no cell is compressed by more than 10 %.
 const MAPPED_STROKES: f64 = 10.0;
@@ -46,8 +46,8 @@ pub struct FlumeSetup {
     pub cell_m: f64,
     /// Positions x of the wave gauges [m].
     pub gauges_x_m: Vec<f64>,
-    /// Times of surface profiles along the whole flume [s]; each profile is recorded at the first time step that
-    /// reaches it.
+    /// Times of surface profiles along the whole flume [s]; the first time step that reaches a time records the
+    /// profile.
     pub profile_times_s: Vec<f64>,
     /// Range of x in which the flow is recorded [m], limited to the flume.
     pub window_x_m: [f64; 2],

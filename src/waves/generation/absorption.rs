@@ -2,14 +2,15 @@
 //!
 //! Schaffer & Klopman (2000), "Review of multidirectional active wave absorption methods"; Altomare et al. (2017),
 //! section 2.3. A gauge that moves with the piston measures the elevation. The excess over the elevation of the
-//! generated wave is the sum of the returning wave eta_in and the unwanted outgoing wave eta_out. The piston velocity
-//! U = -(eta_in + eta_out) u/eta, with u/eta = sqrt(g/d) for long waves, makes eta_out = eta_in + U eta/u = 0.
+//! generated wave is the sum of the returning wave eta_in and the unwanted outgoing wave eta_out. A wave has the ratio
+//! u/eta of depth-mean velocity and elevation; it is sqrt(g/d) for long waves in the depth d. The piston velocity
+//! U = -(eta_in + eta_out) u/eta makes eta_out = eta_in + U eta/u = 0.
 //!
 //! Waves travel from the gauge to the piston in the time a. Therefore the gauge measures eta_in too early and eta_out
-//! too late by a. The readings scatter by about 1/20 of the particle spacing. They are smoothed to y with the time
-//! constant tau: tau y' = eta_in(t + a) + eta_out(t - a) - y. For slow waves and eta_out = eta_in - y this becomes
-//! y + (tau - a) y' / 2 = eta_in, which has no lag for tau = a. The loop is stable for any a, because the coefficient
-//! of the delayed term is not larger than the coefficient of y.
+//! too late by a. The readings scatter by about 1/20 of the particle spacing. Smoothing with the time constant tau
+//! gives y: tau dy/dt = eta_in(t + a) + eta_out(t - a) - y. For slow waves and eta_out = eta_in - y this becomes
+//! y + (tau - a) (dy/dt) / 2 = eta_in, which has no lag for tau = a. The control loop is stable for any a, because the
+//! coefficient of y(t - a) is not larger than the coefficient of y.
 
 use std::f64::consts::TAU;
 
@@ -52,8 +53,8 @@ impl Absorption {
     /// Creates the parameters of a full-depth piston: for waves of period `period_s`, or for long waves if it is
     /// `None`.
     ///
-    /// Linear theory: a piston with velocity U generates eta = U 4 sinh^2(kd) / (omega (sinh 2kd + 2kd))
-    /// (Biesel 1951); the long-wave limit is U sqrt(d/g).
+    /// In linear theory (Biesel 1951), a piston with velocity U generates eta = U 4 sinh^2(kd) / (omega (sinh 2kd +
+    /// 2kd)), with wavenumber k, depth d and angular frequency omega; the long-wave limit is U sqrt(d/g).
     pub fn for_full_depth_piston(
         gauge_m: f64,
         depth_m: f64,
@@ -116,8 +117,8 @@ mod tests {
             out.push(incoming(t) + state.velocity_m_s / 5.0);
         }
         let largest = out.iter().fold(0.0_f64, |most, eta| most.max(eta.abs()));
-        // The residual of second order, a^2 eta'' / 4, is 4.5 % of the height of this wave; terms of higher order raise
-        // it to 5.2 %.
+        // The reflected wave of second order, a^2 (d2 eta/dt2) / 4, is 4.5 % as high as the incoming wave; terms of
+        // higher order raise it to 5.2 %.
         assert!(largest < 0.06 * 0.03, "{}", largest / 0.03);
         // The piston has retreated by u/eta times the integral of the elevation over time: 5 (2/3) 0.03 = 0.1 m.
         assert!((state.displacement_m + 0.1).abs() < 0.002);

@@ -1,9 +1,9 @@
 //! Multi-layer piston: a wavemaker in the particle domain whose rows follow the water of a flume run.
 //!
 //! Altomare, Dominguez, Crespo, Suzuki, Caceres & Gomez-Gesteira (2015), "Hybridization of the wave propagation model
-//! SWASH and the meshfree particle method SPH for real coastal applications". The rows are a Lagrangian wall: they
-//! follow the water that is at x0 when the particle run starts, dX/dt = u(X, Z, t), dZ/dt = w(X, Z, t). Integrating the
-//! Eulerian u(x0, t) instead would make the stroke too short.
+//! SWASH and the meshfree particle method SPH for real coastal applications". The rows are a Lagrangian wall. They
+//! follow the water that is at the piston's rest position x0 when the particle run starts. This water, at (X, Z), moves
+//! by dX/dt = u(X, Z, t), dZ/dt = w(X, Z, t). An integral of the Eulerian u(x0, t) would make the stroke too short.
 //!
 //! The rows move in x only, whereas the water also rises and falls. Therefore water particles are tracked in x and z:
 //! one that starts at the height of each row in the water, and one at the surface. The velocity of a row is
@@ -65,7 +65,7 @@ impl MlPiston {
         for knot in 0..knots {
             let t = start_s + knot as f64 * interval_s;
             let mut speeds: Vec<[f64; 2]> = particles.iter().map(|&[x, z]| [z, record.velocity(x, z, t).0]).collect();
-            // Sort by height, because particles at the bed or at a broken surface can change their order.
+            // Sort by height, because the order of particles can change at the bed or at a broken surface.
             speeds.sort_by(|a, b| a[0].total_cmp(&b[0]));
             for ((series, displacement), &height) in velocities.iter_mut().zip(&mut displacements).zip(row_heights_m) {
                 let velocity =
@@ -162,7 +162,7 @@ impl MlPiston {
     }
 
     /// Displacement of a row [m] at flume time t [s]: 0 before the start, constant after the end. Between two knots it
-    /// is a parabola, because the velocity is linear.
+    /// is a parabola, because the velocity is linear in time.
     pub fn displacement_m(&self, row: usize, t: f64) -> f64 {
         let (v, d) = (&self.velocities[row], &self.displacements[row]);
         match self.locate(t) {
@@ -345,8 +345,8 @@ mod tests {
             t = 0.5 + dt * f64::from(i + 1);
             if i % 3000 == 0 {
                 for row in 0..3 {
-                    // The trapezoidal rule with dt = 0.02 s has an error of dt^2 / 12 times the change of du/dt by up
-                    // to 0.9 m/s2: 3e-5 m.
+                    // The error of the trapezoidal rule is dt^2 / 12 times the change of du/dt. With dt = 0.02 s and a
+                    // change of at most 0.9 m/s2, it is 3e-5 m.
                     assert!((piston.displacement_m(row, t) - (x - 1.0)).abs() < 5e-5);
                 }
             }
@@ -362,7 +362,7 @@ mod tests {
         for i in 0..40 {
             let (t, h) = (0.53 + 0.0481 * f64::from(i), 1e-6);
             let slope = (piston.displacement_m(0, t + h) - piston.displacement_m(0, t - h)) / (2.0 * h);
-            // If a knot lies between t - h and t + h, the difference quotient deviates by at most h times 0.5 m/s2.
+            // If a knot lies between t - h and t + h, slope and velocity differ by at most h times 0.5 m/s2.
             assert!((slope - piston.velocity_m_s(0, t)).abs() < 1e-6);
         }
         assert_eq!((piston.displacement_m(0, 0.4), piston.velocity_m_s(0, 0.4)), (0.0, 0.0));

@@ -1,7 +1,7 @@
 //! Motion of a wave paddle that generates regular waves.
 //!
-//! * Biesel & Suquet (1951), in the form of Dean & Dalrymple (1984), section 6.3: small waves in front of a paddle that
-//!   moves by S f(z) / 2 sin(omega t), with the stroke S and f = 1 at still water level.
+//! * Biesel & Suquet (1951), in the form of Dean & Dalrymple (1984), section 6.3: the paddle moves by
+//!   (S/2) f(z) sin(omega t) and generates small waves. S is the stroke, and the shape f is 1 at still water level.
 //! * Madsen (1971), "On the generation of long waves": a piston motion at twice the wave frequency generates a
 //!   second-order wave of permanent form. Without this motion, the piston also generates a slower free wave of twice
 //!   the frequency.
@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use crate::waves::theory::regular::RegularWave;
 
-/// Shape of a paddle: its displacement as a function of height.
+/// Shape f(z) of a paddle: its displacement as a function of the height z above the bed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PaddleShape {
     /// Uniform over the height.
@@ -173,8 +173,8 @@ mod tests {
         let k = 0.01 / DEPTH;
         assert!((PaddleShape::Piston.height_per_stroke(k, DEPTH) / 0.01 - 1.0).abs() < 1e-4);
         assert!((flap.height_per_stroke(k, DEPTH) / 0.005 - 1.0).abs() < 1e-4);
-        // In deep water only the motion at the surface matters; a flap has the additional factor
-        // 1 - 1/kd.
+        // In deep water only the motion at the surface matters; H/S of a flap has the additional
+        // factor 1 - 1/kd.
         let k = 20.0 / DEPTH;
         assert!((PaddleShape::Piston.height_per_stroke(k, DEPTH) - 2.0).abs() < 1e-12);
         assert!((flap.height_per_stroke(k, DEPTH) - 2.0 * (1.0 - 1.0 / 20.0)).abs() < 1e-6);
@@ -204,9 +204,9 @@ mod tests {
 
     #[test]
     fn second_order_motion_follows_the_water_in_shallow_water() {
-        // In shallow water dX/dt = c eta / (d + eta) at the piston. With Stokes' second-order elevation, expansion in
-        // a/d and kd gives X2 = (a^2 / 2 k d^2) (3 / (2 kd)^2 - 1/2); each further term in the brackets is
-        // smaller by (kd)^2.
+        // In shallow water the piston moves by dX/dt = c eta / (d + eta). For Stokes' second-order elevation eta of
+        // amplitude a, expansion in a/d and kd gives X2 = a^2 / (2 k d^2) (3 / (2 kd)^2 - 1/2); each further term
+        // in the brackets is smaller by (kd)^2.
         let (height, kd) = (1e-3, 0.2);
         let (a, k) = (0.5 * height, kd / DEPTH);
         let expected = a * a / (2.0 * k * DEPTH * DEPTH) * (3.0 / (4.0 * kd * kd) - 0.5);

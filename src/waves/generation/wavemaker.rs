@@ -49,8 +49,8 @@ impl Wavemaker {
         }
     }
 
-    /// Position x [m] at flume time t [s]: at still water level for a paddle, of the highest row for a multi-layer
-    /// piston.
+    /// Position x [m] of the wavemaker near the surface at flume time t [s]: at still water level for a paddle, of the
+    /// highest row for a multi-layer piston.
     pub fn x_at_surface_m(&self, t: f64) -> f64 {
         match self {
             Self::MlPiston(piston) => piston.rest_x_m() + piston.displacement_m(piston.row_heights_m().len() - 1, t),

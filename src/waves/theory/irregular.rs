@@ -1,11 +1,11 @@
 //! Irregular waves: a first-order JONSWAP sea with random phases.
 //!
-//! Hasselmann et al. (1973): S(f) ~ f^-5 exp(-1.25 (f_p/f)^4) gamma^a, a = exp(-(f - f_p)^2 / (2 s^2 f_p^2)), s = 0.07
-//! below the peak frequency f_p and 0.09 above. S is scaled so that H_s = 4 sqrt(m_0), where m_0 is the integral of S.
-//! The surface is a sum of waves with the amplitude sqrt(2 S df), spaced by df in frequency, with random phases; it
-//! repeats after 1/df. Velocities follow linear theory with Wheeler (1970) stretching. The sum has no bound long waves,
-//! because the nonlinear flume model generates them. The flume model also generates spurious free long waves, which
-//! second-order wave generation would suppress.
+//! The spectrum S(f) is proportional to f^-5 exp(-1.25 (f_p/f)^4) gamma^a (Hasselmann et al. 1973), with the peak
+//! frequency f_p and a = exp(-(f - f_p)^2 / (2 s^2 f_p^2)); s is 0.07 below f_p and 0.09 above. S is scaled so that
+//! H_s = 4 sqrt(m_0), where m_0 is the integral of S. The surface is a sum of waves with random phases and the
+//! amplitude sqrt(2 S df), spaced by df in frequency. It repeats after 1/df. Velocities follow linear theory with
+//! Wheeler (1970) stretching. The sum has no bound long waves, because the nonlinear flume model generates them. The
+//! flume model also generates spurious free long waves, which second-order wave generation would suppress.
 
 use std::f64::consts::TAU;
 
@@ -93,7 +93,7 @@ impl IrregularWave {
     }
 
     /// Horizontal velocity [m/s] at z [m] above still water and time t [s]: the sum over the components of a omega
-    /// cosh(k d s) / sinh(k d) cos(angle), with s = (z + d)/(d + eta).
+    /// cosh(k d s) / sinh(k d) cos(angle), with s = (z + d)/(d + eta), amplitude a and elevation eta of the sum.
     pub fn velocity_m_s(&self, z: f64, t: f64) -> f64 {
         let d = self.sea.depth_m;
         let stretched_height = d * ((z + d) / (d + self.elevation_m(t))).clamp(0.0, 1.0);

@@ -4,9 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use thiserror::Error;
 
-/// Steepness at which a wave of permanent form breaks in deep water, H / L (Miche 1944).
+/// Steepness (height divided by wavelength) at which a wave of permanent form breaks in deep water [-] (Miche 1944).
 const MICHE: f64 = 0.142;
-/// Largest H L^2 / d^3 at which a second-order wave has a single crest per period, 8 pi^2 / 3 (Madsen 1971).
+/// Largest Ursell number H L^2 / d^3 (height H, wavelength L, depth d) at which a second-order wave has a single crest
+/// per period [-]: 8 pi^2 / 3 (Madsen 1971).
 const LARGEST_URSELL: f64 = 8.0 * PI * PI / 3.0;
 
 /// Regular waves in water of uniform depth.
@@ -101,7 +102,8 @@ impl WaveError {
     }
 }
 
-/// Largest stable wave height H/d [-] for the wavelength L/d (Fenton 1990, fitted to the results of Williams 1981).
+/// Height of the highest stable wave for a given wavelength, both divided by the depth [-] (Fenton 1990, fitted to the
+/// results of Williams 1981).
 pub fn max_height_over_depth(length_over_depth: f64) -> f64 {
     let l = length_over_depth;
     (0.141_063 * l + 0.009_572_1 * l * l + 0.007_782_9 * l.powi(3))

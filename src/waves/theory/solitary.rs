@@ -5,7 +5,7 @@
 //!   (outskirt) of Rayleigh's solitary wave.
 //! * Grimshaw (1971), Fenton (1972): third-order solitary wave.
 
-/// Number of Newton iterations for the phase. The initial guess is within 1e-2; five iterations reach rounding error.
+/// Number of Newton iterations for the phase. Five iterations reduce the initial error of 1e-2 to rounding.
 const NEWTON_STEPS: usize = 5;
 /// The piston starts at minus this phase and stops at plus this phase. The elevation there is sech^2(3.8) = 0.002 of
 /// the crest elevation.

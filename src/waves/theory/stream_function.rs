@@ -1,8 +1,9 @@
 //! Stream function wave theory: regular waves of permanent form by Fourier approximation, from deep water to cnoidal
 //! waves.
 //!
-//! Rienecker & Fenton (1981), "A Fourier approximation method for steady water waves"; Fenton (1988). In units of d and
-//! g and in the frame of the wave, where the water flows towards negative x:
+//! Rienecker & Fenton (1981), "A Fourier approximation method for steady water waves"; Fenton (1988). The equations
+//! use units of the depth d and gravity g, and the frame of the wave, where the water flows towards negative x. psi is
+//! the stream function, U the mean speed, Q the volume flux and R the Bernoulli constant:
 //!
 //! ```text
 //! psi(X, Y) = - U Y + sum_j B_j sinh(j k Y) / cosh(j k) cos(j X),  X = k x - omega t,  Y from the bed
@@ -20,11 +21,12 @@ use super::regular::{MeanFlow, RegularWave, WaveError, linear_wavenumber_per_m, 
 mod equations;
 use equations::{SteadyWave, solve};
 
-/// Ratio of the heights of successive solutions [-]. Each initial guess is extrapolated from the last two solutions.
+/// Ratio of the wave heights of successive solutions [-].
 const HEIGHT_GROWTH: f64 = 1.25;
-/// Largest Ursell number H L^2 / d^3 of the first, lowest wave [-]. A wave below this limit is nearly a cosine.
+/// Largest Ursell number H L^2 / d^3 of the first and lowest wave that is solved [-]. A wave below this limit is nearly
+/// a cosine.
 const FIRST_URSELL: f64 = 4.0;
-/// Largest height of the first, lowest wave, divided by the depth [-].
+/// Largest height of this first wave, divided by the depth [-].
 const FIRST_HEIGHT: f64 = 0.02;
 /// Limit of the wavelength, divided by the depth [-]. The crests of longer waves are practically solitary waves.
 const MAX_WAVELENGTH: f64 = 60.0;

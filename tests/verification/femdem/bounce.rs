@@ -3,9 +3,9 @@
 use super::*;
 use breakwater::femdem::mesh::{Body as MeshBody, Mesh};
 
-/// Runs the impact of a tetrahedron on a larger tetrahedron, which is held or free. Returns the energy residual,
-/// the number of time steps in contact, and the energy lost by friction. Both energies are divided by the initial
-/// kinetic energy.
+/// Runs the impact of a tetrahedron on a larger tetrahedron, which is fixed if `held` is true. Returns the energy
+/// residual, the number of time steps in contact, and the energy lost by friction. Both energies are divided by the
+/// initial kinetic energy.
 fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
     let size = 0.1;
     let mesh = Mesh {
@@ -41,8 +41,8 @@ fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
     if held {
         setup.constraints = vec![constant_velocity(mesh.mesh.tets[1].to_vec(), [Some(0.0); 3])];
     }
-    // The time step is a hundredth of the longest stable time step, because the time integration conserves the energy
-    // of an oscillation only up to the share (omega dt)^2 / 8.
+    // The time step dt is a hundredth of the longest stable time step, because the time integration conserves the
+    // energy of an oscillation of angular frequency omega only up to the share (omega dt)^2 / 8.
     let mut world = World::new(setup, 1e-2);
     let first = world.step_with_energies().unwrap();
     let (mut touched, mut separated) = (0, 0.0);
@@ -72,7 +72,7 @@ fn a_tetrahedron_bounces_without_loss_for_any_penalty() {
     for penalty in [0.1, 1.0, 10.0] {
         for held in [false, true] {
             let (residual, touched, _) = bounce(penalty, held, 0.0);
-            // Target: residual 1e-6 of the initial kinetic energy.
+            // Target: residual of the energy balance below 1e-6 of the initial kinetic energy.
             assert!(residual.abs() < 1e-6 && touched > 100, "p = {penalty} E: {residual:.1e}");
         }
     }

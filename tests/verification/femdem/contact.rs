@@ -73,10 +73,10 @@ fn two_bars_separate_after_the_wave_returns() {
     }
     let duration = contact_times[contact_times.len() - 1] - contact_times[0];
     let celerity = bar_celerity();
-    // The contact lasts until the wave has travelled to the far end and back.
+    // The contact lasts until the compression wave has travelled to the far end of a bar and back.
     let expected = 2.0 * length / celerity;
-    // The mean stress is the change of momentum divided by the duration, so it does not contain the overshoot of the
-    // wave front.
+    // The mean contact stress is the change of momentum of a bar, divided by its cross-section and by the duration of
+    // the contact. It therefore does not contain the overshoot of the wave front.
     let mean = 2340.0 * length * 0.5 * speed * 2.0 / duration;
     let stress = 2340.0 * celerity * 0.5 * speed;
     println!(
@@ -122,7 +122,7 @@ fn a_sliding_block_stops_after_the_coulomb_distance() {
         }
     }
     let last = world.step_with_energies().unwrap();
-    // Sliding distance with Coulomb friction: v^2 / (2 mu g), for v = 1 m/s.
+    // Sliding distance with Coulomb friction: v^2 / (2 mu g), for the initial speed v = 1 m/s.
     let expected = 1.0 / (2.0 * 0.6 * 9.8);
     println!(
         "sliding distance {distance:.5} m ({expected:.5} expected), duration {rest:.4} s ({:.4}), friction {:.5} J of {:.5} J, residual {:.1e}",
@@ -136,7 +136,7 @@ fn a_sliding_block_stops_after_the_coulomb_distance() {
     assert!((last.total() - first.total()).abs() < 0.01 * first.kinetic);
 }
 
-/// Returns the speed of a block on a slope [degrees] after 0.05 and 0.1 s [m/s].
+/// Returns the speeds [m/s] of a block after 0.05 and 0.1 s on a slope of `degrees`.
 fn down_a_slope(degrees: f64) -> [f64; 2] {
     // The viscosity damps oscillations that would separate the bodies: after each separation, the friction springs
     // restart from zero.
@@ -167,11 +167,11 @@ fn a_block_slides_only_on_slopes_steeper_than_the_friction_angle() {
     let angle = 35f64.to_radians();
     let expected = 9.8 * (angle.sin() - 0.6 * angle.cos());
     let found = (late - early) / 0.05;
-    // The friction angle is arctan 0.6 = 30.96 degrees.
+    // The friction angle is arctan 0.6 = 30.96 degrees, so friction holds a block on a slope of 30 degrees.
     let [_, held] = down_a_slope(30.0);
     println!("{found:.4} m/s2 ({expected:.4}); at 30 degrees {held:.1e} m/s after 0.1 s");
     // Target: acceleration within 1 % of theory.
     assert!((found / expected - 1.0).abs() < 0.01);
-    // Limit 1e-9 m/s: rounding.
+    // Limit 1e-9 m/s for the speed of the held block: rounding.
     assert!(held.abs() < 1e-9);
 }

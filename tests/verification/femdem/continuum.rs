@@ -20,7 +20,7 @@ fn a_linear_displacement_field_has_no_force_inside() {
     let largest = (0..origin.len()).map(force).fold(0.0, f64::max);
     let mut count = 0;
     for n in (0..world.nodes.count()).filter(|n| inside(world.initial_position(*n))) {
-        // Target: 1e-10 of the forces at the surface.
+        // Target: forces on inner nodes below 1e-10 of the largest force, which acts at the surface.
         assert!(force(n) < 1e-10 * largest, "{:.1e}", force(n) / largest);
         count += 1;
     }
@@ -53,8 +53,8 @@ fn a_bar_has_the_frequency_of_thin_bar_theory() {
     let expected = bar_celerity() / (2.0 * 0.5);
     let found = bar_frequency(None);
     println!("{found:.1} Hz, {expected:.1} expected ({:+.2} %)", 100.0 * (found / expected - 1.0));
-    // Target: 1 %. Lateral inertia lowers the frequency by (nu pi r / L)^2 / 2 = 0.03 %, where r = 20 mm is the polar
-    // radius of gyration.
+    // Target: frequency within 1 % of theory. Lateral inertia lowers the frequency by (nu pi r / L)^2 / 2 = 0.03 %,
+    // with Poisson's ratio nu, the length L and the polar radius of gyration r = 20 mm.
     assert!((found / expected - 1.0).abs() < 0.01);
 }
 
@@ -66,16 +66,16 @@ fn joints_make_a_bar_softer_by_their_compliance() {
         let softer = (found / plain).powi(2);
         let expected = 1.0 / (1.0 + 2.7 / penalty);
         println!("p0 = {penalty} E: E_eff / E = {softer:.4}, {expected:.4} by the rule for unstructured meshes");
-        // The rule is for unstructured meshes, where joint area per volume times h / 3 is 2.7 (edge length h). This
-        // mesh is regular, so a tolerance is necessary.
+        // The expected ratio follows from a rule for unstructured meshes: there, the joint area per volume times a
+        // third of the edge length is 2.7. This mesh is regular, so a tolerance is necessary.
         assert!((softer / expected - 1.0).abs() < tolerance);
     }
     let tied = bar_frequency(cohesion(2.0, true));
-    // Limit 1e-4: the two runs have different time steps, which shift the frequency by (omega dt)^2 / 24.
+    // Limit 1e-4: the runs have different time steps dt, which shift the frequency omega by (omega dt)^2 / 24.
     assert!((tied / plain - 1.0).abs() < 1e-4);
 }
 
-/// Returns the first frequency of a cantilever of 1 x 0.1 x 0.1 m [Hz] with `cells` over its height.
+/// Returns the first frequency [Hz] of a cantilever of 1 x 0.1 x 0.1 m with `cells` cells over its height.
 fn cantilever(cells: usize) -> f64 {
     let mesh = mesh(DVec3::new(1.0, 0.1, 0.1), [10 * cells, cells, cells]);
     let mut setup = setup(&mesh, None);
@@ -104,8 +104,8 @@ fn cantilever(cells: usize) -> f64 {
 fn a_cantilever_has_the_first_frequency_of_beam_theory() {
     let [coarse, fine] = [2, 4].map(cantilever);
     println!("first frequency {coarse:.2} Hz, {fine:.2} Hz with elements half as long; 53.85 Hz expected");
-    // Target: 3 % on the finer mesh. Elements of constant strain are too stiff in bending; this error is of second
-    // order.
+    // Target: frequency within 3 % of theory on the finer mesh. Elements of constant strain are too stiff in bending;
+    // this error is of second order in the cell size.
     assert!((fine / 53.85 - 1.0).abs() < 0.03 && (coarse - 53.85).abs() > (fine - 53.85).abs());
 }
 

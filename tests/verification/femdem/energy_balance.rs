@@ -5,7 +5,8 @@ use std::path::Path;
 
 /// Results of a run.
 struct Run {
-    /// Largest residual of the energy balance, divided by the energy input [-].
+    /// Largest residual of the energy balance, divided by the energy input: the initial kinetic energy, or the work if
+    /// it is larger [-].
     residual: f64,
     /// Number of failed faces.
     failed: usize,
@@ -72,8 +73,8 @@ fn energy_balance_of_a_shattering_block_closes_better_with_shorter_time_steps() 
             100.0 * long.lost[0],
             100.0 * long.lost[1]
         );
-        // Target: residual 1 % of the energy input. A quarter of the time step lowers the residual to 1/16, but only to
-        // 1/4 with friction on rotating fragments.
+        // Target: residual below 1 % of the energy input. With a quarter of the time step, the residual is 1/16 as
+        // large; with friction on rotating fragments, it is only 1/4 as large.
         assert!(long.residual < 0.01 && short.residual < 0.5 * long.residual && short.residual < 1e-3);
         assert!(long.failed > 20 && long.lost[0] > 0.02);
     }
@@ -106,7 +107,7 @@ fn energy_balance_of_a_collapsed_prism_closes() {
             100.0 * run.lost[0],
             100.0 * run.lost[1]
         );
-        // Target: residual 1 % of the energy input.
+        // Target: residual below 1 % of the energy input.
         assert!(run.residual < 0.01 && run.failed > 100 && run.lost[1] > 0.05);
     }
 }

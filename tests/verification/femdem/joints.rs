@@ -6,7 +6,7 @@ use breakwater::femdem::world::energy_balance::EnergyBalance;
 /// Results of pulling a bar of 0.2 x 0.05 x 0.05 m apart at both ends.
 struct Pulled {
     world: World,
-    /// Largest stress, from the strain energy [Pa].
+    /// Largest stress of the bar, computed from its strain energy [Pa].
     largest_stress: f64,
     /// Largest residual of the energy balance [J].
     residual: f64,
@@ -14,7 +14,7 @@ struct Pulled {
 }
 
 fn pull_bar(cohesion: Option<Cohesion>, speed: f64) -> Pulled {
-    // One plane between two cells is normal to the axis; all other faces are inclined.
+    // One plane between two cells is normal to the axis of the bar; all other inner faces are inclined to this axis.
     let mesh = prepare(block(DVec3::new(0.2, 0.05, 0.05), [2, 1, 1], Pattern::Diagonal)).unwrap();
     let mut setup = setup(&mesh, cohesion);
     setup.bodies[0].elastic.viscosity = 2e4;
@@ -58,12 +58,12 @@ fn a_bar_breaks_at_its_strength_with_its_fracture_energy() {
         // Only the plane between the cells fails, by opening.
         assert!((area / 25e-4 - 1.0).abs() < 1e-9);
         assert!(world.failures.iter().all(|failure| !failure.by_sliding));
-        // Limit 5 %: the stress from the strain energy includes the held ends and the soft joints. The tests of the
-        // cohesive law show that the strength at a point is exact.
+        // Limit 5 % for the largest stress: the strain energy includes the held ends and the soft joints. The tests of
+        // the cohesive law show that the strength at a point is exact.
         assert!((largest_stress / 3.3e6 - 1.0).abs() < 0.05);
-        // Limit 3 %: the inclined faces dissipate less than 3 % of the energy.
+        // Limit 3 % for the fracture energy: the inclined faces dissipate less than 3 % of the energy.
         assert!((fracture_energy / 50.0 - 1.0).abs() < 0.03);
-        // Target: residual 1 % of the work.
+        // Target: residual of the energy balance below 1 % of the work.
         assert!(residual < 0.01 * last.work);
     }
 }

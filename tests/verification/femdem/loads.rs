@@ -48,17 +48,17 @@ fn a_bar_under_traction_stretches_by_hooke_and_its_energy_balance_closes() {
     let stretch = end.iter().map(|n| world.nodes.position[*n].x - length).sum::<f64>() / end.len() as f64
         * CONCRETE.young_modulus
         / (stress * length);
-    // A slow load stores half of force times displacement.
+    // A load that rises slowly stores an energy of half the force times the displacement.
     let expected = 0.5 * stress * stress / CONCRETE.young_modulus * length * 0.0025;
     println!(
         "stretch {stretch:.6} of Hooke's law; work without losses {:.6} of the stored energy, residual {:.1e}",
         (last.work - last.viscous) / expected,
         (last.total() - first.total()) / last.work
     );
-    // Limit 2e-3: the finite ramp leaves a small oscillation.
+    // Limit 2e-3 for stretch and work: the load rises in a finite time, so a small oscillation remains.
     assert!((stretch - 1.0).abs() < 2e-3 && ((last.work - last.viscous) / expected - 1.0).abs() < 2e-3);
-    // Target: residual 1 % of the work. The limit is only 1e-6, because the error of the oscillating part is of second
-    // order in the time step, here half of the longest stable time step.
+    // Target: residual of the energy balance below 1 % of the work. The limit is only 1e-6, because the error of the
+    // oscillating part is of second order in the time step, here half of the longest stable time step.
     assert!((last.total() - first.total()).abs() < 1e-6 * last.work);
 }
 
@@ -95,7 +95,7 @@ fn pressure_on_all_sides_compresses_by_the_bulk_modulus() {
         strain * bulk / pressure,
         (last.total() - first.total()) / last.work
     );
-    // Limit 2e-3: the strain is finite, because p / K is 7e-4.
+    // Limit 2e-3: the strain p / K (pressure over bulk modulus) is 7e-4, so it is not infinitely small.
     assert!((strain * bulk / pressure - 1.0).abs() < 2e-3);
     assert!((last.total() - first.total()).abs() < 1e-4 * last.work);
     // Limit 1e-12: rounding; a pressure on a closed surface has no resultant in any deformation.
@@ -137,7 +137,7 @@ fn a_load_about_a_point_has_the_given_force_and_moment() {
                 let map = |x: DVec3| rotation * (x + strain * x) + DVec3::new(1.0, -2.0, 0.5);
                 displace(&mut world, |x| map(x) - x);
                 let Load::Patch(patch) = &world.setup().loads[0] else { panic!() };
-                // The point moves with the body. Limit 1e-13: rounding of some hundred terms.
+                // The point moves with the body. Limit 1e-13 m: rounding of some hundred terms.
                 assert!((patch.position(&world.configuration()) - map(place)).length() < 1e-13);
                 let mut forces = Vec::new();
                 world.setup().loads[0].forces(&world.configuration(), 0.0, &mut forces);
@@ -145,7 +145,8 @@ fn a_load_about_a_point_has_the_given_force_and_moment() {
                 let expected = [0, 3].map(|k| DVec3::from_slice(&given[k..k + 3]) * if k == 3 { moment } else { 1.0 });
                 let expected = match axes {
                     Axes::Space => expected,
-                    // The polar decomposition gives a rotation that the strain changes slightly.
+                    // The rotation of the body axes comes from a polar decomposition, and the strain changes it
+                    // slightly.
                     Axes::Body => patch.prescribed(&world.configuration(), 0.0),
                 };
                 // Limit 1e-12: rounding.
@@ -209,7 +210,7 @@ fn a_recorded_load_gives_its_momentum_and_its_work() {
         let expected = DVec3::from_slice(&impulse[..3]);
         assert!((linear - expected).length() < 1e-10 * expected.length());
         assert!((angular - expected_angular).length() < 1e-10 * expected_angular.length());
-        // Limit 1e-3: the error of the oscillating part is of second order in the time step.
+        // Limit 1e-3 for the energy residual: the error of the oscillating part is of second order in the time step.
         assert!((last.total() - first.total()).abs() < 1e-3 * last.work);
     }
 }

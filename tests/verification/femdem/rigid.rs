@@ -40,7 +40,7 @@ fn a_free_rigid_body_tumbles_and_falls_without_loss() {
     // Without torque, the angular momentum changes only by rounding in the sum of forces.
     assert!((now.angular_momentum - start.angular_momentum).length() < 1e-12 * l.length());
     assert!(now.centre.distance(start.centre) > 10.0 && longest < 1e-12);
-    // Limit 1e-5: the error is of second order in the time step, (omega dt)^2 = 4e-6.
+    // Limit 1e-5 for the energy residual: it is of second order in the time step dt, (omega dt)^2 = 4e-6.
     assert!(residual < 1e-5);
 }
 
@@ -71,13 +71,14 @@ fn a_rigid_pendulum_swings_about_its_held_edge() {
     }
     let times = crossings(&signal);
     let period = 2.0 * (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
-    // T = 2 pi sqrt(I / (m g d)) with I about the edge. An amplitude of 0.02 lengthens T by the share 0.02^2 / 16.
+    // The period is T = 2 pi sqrt(I / (m g d)), with the moment of inertia I about the edge, the mass m, and the
+    // distance d of the centre of mass from the edge. An amplitude of 0.02 lengthens T by the share 0.02^2 / 16.
     let inertia = (side * side + length * length) / 12.0 + down.length_squared();
     let expected = TAU * (inertia / (9.8 * down.length())).sqrt();
     println!("period {period:.5} s ({expected:.5} expected), residual {residual:.1e}");
-    // Limit 0.1 %: half of this limit is the error of the zero crossings, because the centre is half a time step off.
+    // Limit 0.1 % for the period. Half of it allows for zero crossings with positions that are half a time step off.
     assert!((period / expected - 1.0).abs() < 1e-3);
-    // Limit 1e-3: the constraint does no work except for the error of the time step.
+    // Limit 1e-3 for the energy residual: the constraint does no work except for the error of the time step.
     assert!(residual < 1e-3);
 }
 
@@ -122,7 +123,7 @@ fn a_rigid_block_bounces_off_a_deformable_block() {
     assert!(touched > 10 && world.rigid_bodies[0].motion.velocity.z > -0.5 && last.friction > 0.0);
     // Limit 1e-12: rounding.
     assert!((end[0] - start[0]).length() < 1e-12 && (end[1] - start[1]).length() < 1e-12);
-    // Limit 1e-2: the error is of second order in the time step, here a fifth of the longest stable time step.
+    // Limit 1e-2 for the energy residual, an error of second order: dt is a fifth of the longest stable time step.
     assert!((last.total() - first.total()).abs() < 1e-2 * first.kinetic);
 }
 
@@ -161,7 +162,8 @@ fn a_moving_rigid_platen_compresses_a_block_and_its_work_is_balanced() {
     let last = world.step_with_energies().unwrap();
     let motion = world.rigid_bodies[0].motion;
     let displacement = start.centre.z - motion.centre.z;
-    // The stiffness between smooth platens is E A / L; the contact is a spring in series at one end.
+    // Between smooth platens, the stiffness of a body of cross-section A, length L and modulus E is E A / L. The
+    // contact at one end is a spring in series with this stiffness.
     let without_contact = 0.5 * CONCRETE.young_modulus * 0.1 * displacement * displacement;
     println!(
         "displacement {:.3} um, work {:.4} J of {without_contact:.4} J without contact compliance, residual {:.1e}",
@@ -169,7 +171,7 @@ fn a_moving_rigid_platen_compresses_a_block_and_its_work_is_balanced() {
         last.work,
         residual / last.work
     );
-    // Velocities at the middle of time steps sum to the displacement of the history, 8 um.
+    // The velocities in the middle of the time steps, multiplied by dt, sum to the displacement of the history, 8 um.
     assert!((displacement / 8e-6 - 1.0).abs() < 1e-3 && motion.orientation.angle_between(start.orientation) < 1e-9);
     assert!(last.work > 0.5 * without_contact && last.work < without_contact * 1.01);
     assert!(residual < 1e-3 * last.work);

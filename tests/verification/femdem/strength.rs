@@ -20,8 +20,8 @@ impl Curve {
         self.rows.iter().map(|row| row[1]).fold(0.0, f64::max)
     }
 
-    /// Returns the least-squares slope of the force over the watched value between two shares of the largest force
-    /// [N/m].
+    /// Returns the slope of the force against the watched value [N/m], by least squares over the rows in which the
+    /// force is between two shares of its peak.
     fn slope(&self, from: f64, to: f64) -> f64 {
         let peak = self.peak();
         let top = self.rows.iter().position(|row| row[1] == peak).unwrap();
@@ -38,15 +38,15 @@ fn downwards(speed: f64, after: f64) -> History<1> {
     History::new([(0.0, [0.0]), (after, [-speed])]).unwrap()
 }
 
-/// Advances until the force has fallen to 0.6 of its peak; `row` is the time between rows [s]. The force is the work
-/// over the displacement, so only the constraint with this velocity may do work.
+/// Advances until the force has fallen to 0.6 of its peak; `row` is the time between rows [s]. The force is the
+/// increase of work divided by the increase of displacement, so only the constraint with this velocity may do work.
 fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watch: impl Fn(&World) -> f64) -> Curve {
     let mut world = World::new(setup, share);
     let mut rows: Vec<[f64; 3]> = Vec::new();
     let (mut displacement, mut before, mut peak) = (0.0, [0.0; 2], 0.0f64);
     let (mut residual, mut largest, mut swing) = (0.0f64, 0.0f64, 0.0);
     let first = world.step_with_energies().unwrap().total();
-    // While the velocity still rises, waves lower the force repeatedly.
+    // While the velocity still rises, waves lower the force repeatedly, so the run continues.
     let rises = |world: &World| velocity.at(world.time)[0] > velocity.at(f64::MAX)[0];
     while rises(&world) || rows.last().is_none_or(|row| row[1] > 0.6 * peak || row[1] < 1e-3 * peak) {
         let until = world.time + row;
@@ -83,7 +83,7 @@ fn material(strength: Strength, penalty: f64, tied: bool, mesh: &PreparedMesh) -
 fn crush_prism(file: &Path, penalty: f64, tied: bool) -> f64 {
     let mesh = mesh::read(file, 1.0).unwrap();
     let mut setup = material(STRENGTH, penalty, tied, &mesh);
-    // The load is slow: a wave passes through the prism sixty times before it breaks.
+    // The load is slow: a wave passes through the prism sixty times before the prism breaks.
     let velocity = downwards(0.15, 5e-4);
     setup.constraints = vec![
         constant_velocity(nodes_where(&mesh, |x| x.z < 1e-9), [None, None, Some(0.0)]),
@@ -115,8 +115,8 @@ fn coarse(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/fracture/meshes/{name}-coarse.msh"))
 }
 
-/// Reached with elements of 12.5 mm: 58.6 MPa with tied faces, 55.1 MPa with joints of the penalty p_0 = 50 E, 47.7 MPa
-/// with joints of the penalty p_0 = 20 E.
+/// Strength reached with elements of 12.5 mm: 58.6 MPa with tied faces; with joints, 55.1 MPa for the penalty
+/// p_0 = 50 E and 47.7 MPa for p_0 = 20 E.
 #[test]
 #[ignore = "minutes: \
     cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_prism"]
@@ -128,7 +128,7 @@ fn a_prism_is_crushed_at_the_uniaxial_strength() {
     }
 }
 
-/// Reached: 58.0 MPa. Command that makes the mesh:
+/// Reached strength: 58.0 MPa. This command makes the mesh:
 /// tools/mesh/make.py compression --size 0.0075 --out runs/meshes/compression-7.5mm.msh
 #[test]
 #[ignore = "minutes, needs a mesh of 7.5 mm: \
@@ -139,8 +139,8 @@ fn a_finer_prism_is_crushed_at_the_uniaxial_strength() {
     assert!((found / uniaxial_strength() - 1.0).abs() < 0.1, "{:.2} MPa", found / 1e6);
 }
 
-/// Creates Guo's beam of 320 x 40 x 20 mm on supports 314 mm apart, from cells of 24 tetrahedra with `cells` over the
-/// height. The mesh has half the width of the beam; y = 0 is a plane of symmetry.
+/// Creates Guo's beam of 320 x 40 x 20 mm on supports 314 mm apart, from cells of 24 tetrahedra, with `cells` cells
+/// over the height. The mesh has half the width of the beam; y = 0 is a plane of symmetry.
 fn beam(cells: usize) -> PreparedMesh {
     let (length, height, span) = (0.32, 0.04, 0.314);
     let mut mesh = block(DVec3::new(length, 0.01, height), [8 * cells, cells / 4, cells], Pattern::Centred);
@@ -203,7 +203,7 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
         0.5 * (z(axis[1]) + z(axis[2])) - z(axis[0])
     };
     let curve = load(setup, 0.8, &velocity, 2e-6 / speed, deflection);
-    // The stiffness is the slope of the load before the first faces fail.
+    // The stiffness is the slope of the load against the deflection before the first faces fail.
     let (peak, stiffness) = (2.0 * curve.peak(), 2.0 * curve.slope(0.1, 0.4));
     println!(
         "{cells} cells, tied {tied}: {peak:.1} N, {:.3} MN/m, {} faces failed, kinetic over strain energy {:.1e}, residual {:.1e}",
@@ -215,12 +215,12 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
     [peak, stiffness]
 }
 
-/// Largest load of this beam [N] by a fictitious crack with the same softening in plane stress
+/// Largest load of this beam [N], computed with a fictitious crack of the same softening in plane stress
 /// (tools/fictitious-crack/beam). Guo's results are 298.8 N with elements of 2.5 mm and 279.3 N with 5 mm.
 const BY_FICTITIOUS_CRACK: f64 = 308.1;
 
-/// Reached with cells of 10 mm and joints of the penalty p_0 = 50 E: 334.5 N, 9 % above theory. With p_0 = 20 E, the
-/// loads are 331 and 328 N on cells of 10 and 5 mm respectively.
+/// Largest load reached with cells of 10 mm and joints of the penalty p_0 = 50 E: 334.5 N, 9 % above the load of the
+/// fictitious crack. With p_0 = 20 E, the loads are 331 and 328 N on cells of 10 and 5 mm respectively.
 #[test]
 fn a_beam_breaks_at_the_load_of_a_fictitious_crack() {
     let [peak, _] = bend_beam(4, 50.0, false, 0.025);
@@ -235,17 +235,17 @@ fn a_beam_breaks_at_the_load_of_a_fictitious_crack() {
     cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_beam_of_soft_joints"]
 fn a_beam_of_soft_joints_breaks_at_the_published_load() {
     let [peak, _] = bend_beam(8, 2.0, false, 0.025);
-    // Target: 15 % of Guo's 279.3 N for elements of 5 mm.
+    // Target: largest load within 15 % of Guo's 279.3 N for elements of 5 mm.
     assert!((peak / 279.3 - 1.0).abs() < 0.15, "{peak:.1} N");
 }
 
 /// The test does not check the largest load. Tied faces open by the mean stress of two tetrahedra, which is less than
-/// the largest stress on the plane between them. A node splits only after the faces around it have failed. Therefore,
-/// with cells of 10 and 5 mm, the beam breaks at 429 and 360 N, 39 and 17 % above theory.
+/// the largest stress on the plane between them. A node splits only after the faces around it have failed. With cells
+/// of 10 and 5 mm, the beam breaks at 429 and 360 N, 39 and 17 % above the load of the fictitious crack.
 #[test]
 fn a_beam_bends_with_the_stiffness_of_beam_theory() {
     let [_, stiffness] = bend_beam(4, 10.0, true, 0.025);
-    // Target: 3 % of Timoshenko's 4.07 MN/m.
+    // Target: stiffness within 3 % of Timoshenko's 4.07 MN/m.
     assert!((stiffness / 4.07e6 - 1.0).abs() < 0.03, "{:.3} MN/m", stiffness / 1e6);
 }
 
@@ -286,14 +286,14 @@ fn split_disc(penalty: f64, tied: bool, opening_energy: f64) -> f64 {
     curve.peak()
 }
 
-/// This test fails: the disc is smaller than the characteristic length E G_f / f_t^2 = 144 mm, so it does not split at
-/// its tensile strength. With G_f = 5 J/m2 and joints only in the middle plane, the load is 1.1 times the expected
-/// load.
+/// This test fails: the disc is smaller than the characteristic length E G_f / f_t^2 = 144 mm (modulus E, fracture
+/// energy G_f, tensile strength f_t), so it does not split at its tensile strength. With G_f = 5 J/m2 and joints only
+/// in the middle plane, the largest load is 1.1 times the expected load.
 #[test]
 #[ignore = "minutes, known to fail: \
     cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_disc"]
 fn a_disc_splits_at_its_tensile_strength() {
     let found = split_disc(2.0, true, 50.0);
-    // Target: 15 %. The expected load P = 2827 N follows from 2 P / (pi D L) = f_t.
+    // Target: within 15 % of P = 2827 N, from 2 P / (pi D L) = f_t with the diameter D and the thickness L.
     assert!((found / 2827.0 - 1.0).abs() < 0.15, "{found:.0} N");
 }

@@ -1,4 +1,4 @@
-//! Heaps of each catalogue unit come to rest and gain no energy.
+//! For each unit of the catalogue, a heap of ten such units comes to rest and gains no energy.
 
 use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::rigid::{BodyShape, RigidSetup, RigidWorld};
@@ -28,7 +28,7 @@ fn assert_settles(name: &str, unit: &ArmourUnit) {
         world.contact_count(),
         world.substeps()
     );
-    // Target: 1e-6 of the energy at the start.
+    // Target: rise of the mechanical energy below 1e-6 of the energy at the start.
     assert!(rise < 1e-6 * start, "{name} gains energy");
     assert!(e.kinetic < 1e-6 * start, "{name} does not come to rest");
     assert!(world.states().iter().all(|s| s.position.z > 0.0 && s.position.abs().cmple(DVec3::splat(2.0)).all()));

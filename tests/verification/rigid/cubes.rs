@@ -40,8 +40,8 @@ fn a_cube_slides_only_above_the_friction_angle() {
     for (share, slides) in [(0.98, false), (1.02, true)] {
         let mut world = tilted_world(stack(1, 0.0), share * 0.45f64.atan());
         run(&mut world, 1.0, 1e-4);
-        // 2 % above the friction angle, g (sin - mu cos) = 0.07 m/s2 moves the cube 36 mm in a second. Below the
-        // friction angle, springs deform by micrometres.
+        // On a slope 2 % above the friction angle, the acceleration g (sin - mu cos) = 0.07 m/s2 moves the cube 36 mm
+        // in a second. On a slope below the friction angle, springs deform by micrometres.
         assert_eq!(world.states()[0].position.x > 0.01, slides, "{share}: {}", world.states()[0].position.x);
     }
 }
@@ -63,15 +63,15 @@ fn a_rough_cube_tips_when_its_weight_passes_the_edge() {
 
 #[test]
 fn a_stack_of_cubes_stands_for_any_rotation() {
-    // Aligned cubes; a small rotation, where corners carry the load; large rotations, where only crossing edges carry
-    // it.
+    // The cubes are aligned; rotated a little, so that corners carry the load; or rotated far, so that only crossing
+    // edges carry the load.
     for turn in [0.0, 0.02, 0.4, 0.7] {
         let mut world = RigidWorld::new(stack(3, turn)).unwrap();
         run(&mut world, 0.5, 1e-4);
         let before = world.states().to_vec();
         run(&mut world, 2.0, 1e-4);
         for (a, b) in world.states().iter().zip(&before) {
-            // Limit 0.01 mm in two seconds.
+            // Limit: each cube moves less than 0.01 mm in two seconds.
             assert!((a.position - b.position).length() < 1e-5, "{turn}: {}", a.position - b.position);
         }
         // The net contact force on the lowest cube is its own weight; 1e-3 allows for residual motion.

@@ -27,7 +27,7 @@ fn a_sliding_tetrapod_stops_after_the_coulomb_distance() {
         run(&mut world, 1.0, 1e-4);
         let (distance, expected) = (world.states()[0].position.x - start, speed * speed / (2.0 * mu * G));
         println!("sliding with mu {mu}: {distance:.5} m, expected {expected:.5} m, {:?}", world.energy());
-        // Limit 0.5 %; the tangential spring causes 0.1 %.
+        // Limit 0.5 % for the sliding distance; the tangential spring changes the distance by 0.1 %.
         assert!((distance / expected - 1.0).abs() < 0.005);
         // Friction dissipates all kinetic energy. The energy balance closes within 1 % of this energy.
         assert!((total_energy(&world) - before).abs() < 0.01 * 0.5 * MASS * speed * speed);
@@ -56,10 +56,10 @@ fn a_standing_tetrapod_does_not_drift_below_the_friction_angle() {
             "slope of {slope} times the friction angle: drift {drift:.2e} m in 10 s, speed {:.1e}",
             after.velocity.length()
         );
-        // Limit 0.01 mm in ten seconds.
+        // Limit: the unit drifts less than 0.01 mm in ten seconds.
         assert!(drift < 1e-5);
         assert!(after.rotation.dot(before.rotation).abs() > 1.0 - 1e-9);
-        // The contact force carries the weight. Limit 1e-3 of the weight.
+        // The contact force carries the weight, to within 1e-3 of the weight.
         assert!((world.contact_loads()[0].force.length() / (MASS * G) - 1.0).abs() < 1e-3);
     }
 }
@@ -76,8 +76,8 @@ fn a_tetrapod_on_a_tilting_plane_slides_at_the_friction_angle() {
             let mut angle = 0.9 * f64::atan(mu);
             world.set_gravity(DVec3::new(G * angle.sin(), 0.0, -G * angle.cos()));
             run(&mut world, 0.5, 1e-4);
-            // The test detects sliding at a speed of 0.2 mm/s. The unit reaches this speed 0.05 s or 0.05 degrees after
-            // sliding starts: 0.3 % of the smaller friction angle.
+            // The test detects sliding at a speed of 0.2 mm/s. The unit reaches this speed 0.05 s after sliding starts.
+            // In this time, the ground tilts by 0.05 degrees: 0.3 % of the smaller friction angle.
             while world.states()[0].velocity.length() < 2e-4 {
                 angle += rate * 1e-4;
                 world.set_gravity(DVec3::new(G * angle.sin(), 0.0, -G * angle.cos()));
@@ -89,7 +89,8 @@ fn a_tetrapod_on_a_tilting_plane_slides_at_the_friction_angle() {
                 angle.tan(),
                 100.0 * (angle.tan() / mu - 1.0)
             );
-            // Target of the tilt test: 0.5 %. The late detection of sliding causes an error of 0.3 %.
+            // Target of the tilt test: friction coefficient within 0.5 %. The late detection of sliding causes an error
+            // of 0.3 %.
             assert!((angle.tan() / mu - 1.0).abs() < 0.005);
         }
     }
@@ -109,7 +110,7 @@ fn a_fluctuating_load_below_the_friction_limit_moves_nothing() {
     };
     let mut settled = DVec3::ZERO;
     for step in 0..50_000 {
-        // The mean is half of the friction limit; the noise is a fifth of the weight in each direction.
+        // The mean force is half of the friction limit. Along each axis, the noise is at most a tenth of the weight.
         let force = weight * DVec3::new(0.16 + 0.2 * noise(), 0.2 * noise(), 0.2 * noise());
         world.advance(1e-4, &[Load { force, torque: DVec3::ZERO }]).unwrap();
         if step == 5000 {

@@ -22,12 +22,12 @@ fn a_sphere_on_a_plane_follows_the_law_of_hertz() {
     assert_eq!(events.len(), 1);
     let e = &events[0];
     println!("Hertz: F {:.2} N, d {:.2} um, t {:.1} us", e.peak_force, deepest * 1e6, (e.end - e.start) * 1e6);
-    // Limit 1 %: the reference values follow from Hertz's law, and the contact lasts 150 time steps.
+    // Limit 1 % for force and overlap: the reference values are from Hertz's law; the contact lasts 150 time steps.
     assert!((e.peak_force / 424.8 - 1.0).abs() < 0.01);
     assert!((deepest / 261.3e-6 - 1.0).abs() < 0.01);
     assert!(((e.end - e.start) / 769e-6 - 1.0).abs() < 0.015, "a time step is 0.7 % of the contact");
     assert!((e.approach_normal - 1.0).abs() < 1e-9);
-    // The impulse of an elastic impact is 2 m v.
+    // The impulse of an elastic impact is 2 m v, with the mass m and the speed v before the impact.
     assert!((e.impulse[2] / (2.0 * 2650.0 * 4.0 / 3.0 * PI * 8e-6) - 1.0).abs() < 2e-3);
 }
 
@@ -69,7 +69,7 @@ fn frictionless_elastic_bodies_keep_their_energy() {
         run(&mut world, 0.1, 1e-4);
     }
     println!("elastic collisions: energy change {:.2e} of {start:.3} J after 1 s", mechanical(&world) - start);
-    // Limit 0.2 %: error of second order in the time step over some fifty impacts. A jump in gap or normal of a contact
-    // would cause a far larger error.
+    // Limit 0.2 % of the energy: error of second order in the time step over some fifty impacts. A jump in gap or
+    // normal of a contact would cause a far larger error.
     assert!((mechanical(&world) - start).abs() < 0.002 * start);
 }

@@ -30,8 +30,8 @@ fn restitution_equals_the_given_coefficient() {
     for e in [0.3, 0.5, 0.8, 1.0] {
         let [out, _] = impact(e, 1e5);
         println!("restitution {e}: found {out:.5}");
-        // Limit 0.005: the dashpot force starts with a jump. Time steps of an eightieth of a period resolve it to first
-        // order.
+        // Limit 0.005 for the speed ratio: the dashpot force starts with a jump. This jump causes an error of first
+        // order in the time step, which is an eightieth of a period.
         assert!((out - e).abs() < 0.005);
     }
 }

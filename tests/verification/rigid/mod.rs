@@ -51,7 +51,7 @@ fn tetrapod() -> ArmourUnit {
     ArmourUnit::tetrapod(HEIGHT, 0.05).unwrap()
 }
 
-/// Returns a Tetrapod on level ground at (x, y) with about the overlap at rest.
+/// Returns a Tetrapod on level ground at (x, y). Its overlap with the ground is about the overlap at rest.
 fn standing(unit: &ArmourUnit, x: f64, y: f64, azimuth: f64) -> BodyState {
     BodyState::at_rest(DVec3::new(x, y, unit.standing_height() - 3.5e-5), unit.standing_rotation(azimuth))
 }

@@ -43,8 +43,8 @@ fn the_impact_of_a_dropped_ball_records_its_fall_and_its_impulse() {
     // In body axes, the contact point is below the centre, half the overlap above the lowest point.
     let below = rotation * DVec3::from_array(event.point_in_body);
     assert!((below - DVec3::NEG_Z * radius).length() < 1e-4, "{below}");
-    // The impulse is m (v + v'), with the speeds v before and v' after the impact, plus the impulse of the weight
-    // during the history. Target: 1e-9.
+    // The impulse is m (v + v'), with the mass m and the speeds v before and v' after the impact, plus the impulse of
+    // the weight during the history. Target: relative error below 1e-9.
     let samples = contact.history.samples();
     let [first, last] = [samples.first(), samples.last()].map(Option::unwrap);
     let (begin, ended) = (first.start, last.start + last.duration);
@@ -70,7 +70,7 @@ fn impact_partners_are_adjacent_across_a_periodic_side() {
         angular_velocity: DVec3::X * v,
         ..BodyState::at_rest(DVec3::Y * y, DQuat::IDENTITY)
     };
-    // The balls meet at y = 0, which is also y = 1.
+    // The balls meet at the periodic side: y = 0 and y = 1 are the same place.
     let bodies = vec![ball_at(0.03, -1.0), ball_at(0.97, 1.0)];
     let mut setup = setup(ball(0.02, 2400.0), bodies, MORTAR, 0.3);
     (setup.ground, setup.sides, setup.gravity) = (None, Sides::Periodic { width }, DVec3::ZERO);

@@ -33,7 +33,7 @@ fn alternating_neighbours_do_not_overlap_at_the_pitch_of_the_experiment() {
     let [alternating, equal] = [PI, 0.0].map(|azimuth| least_pitch(&unit, azimuth));
     println!("least pitch: alternating {:.2} mm, equal orientation {:.2} mm", alternating * 1e3, equal * 1e3);
     assert!(alternating < 0.08);
-    // Gap between the sharp surfaces of both units. The sharp surface, not the rounded surface, bounds the water.
+    // The gap is between the sharp surfaces of both units: sharp surfaces, not the rounded surfaces, bound the water.
     let second = unit.standing_rotation(PI);
     let gap = unit
         .solid()
@@ -65,7 +65,7 @@ fn images_across_periodic_sides_touch_like_neighbours() {
     let width = 0.24;
     let (images, plain) = (run_row(Sides::Periodic { width }, 0.0), run_row(Sides::Open, width));
     assert!(images[0].position.y > -0.06, "the units did not meet across the side");
-    // Limit 1e-6 m: the shift changes the last bits of y, and the impacts amplify this change.
+    // Limit 1e-6 m for positions: the shift changes the last bits of y, and the impacts amplify this change.
     assert!((images[0].position + DVec3::Y * width - plain[0].position).length() < 1e-6);
     assert!((images[1].position - plain[1].position).length() < 1e-6);
 }

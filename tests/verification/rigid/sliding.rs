@@ -50,7 +50,7 @@ fn a_unit_between_both_friction_angles_slides_only_after_an_external_force() {
     let rest = world.states()[0];
     run(&mut world, 1.0, 1e-4);
     let now = world.states()[0];
-    // Limit 0.01 mm, as for a unit below the friction angle.
+    // Limit 0.01 mm for the displacement, as for a Tetrapod below the friction angle.
     assert!((now.position - rest.position).length() < 1e-5 && now.velocity.length() < 1e-5);
     // A force for 0.1 s starts the motion. Then kinetic friction replaces static friction, and the unit keeps sliding.
     let load = breakwater::rigid::Load { force: DVec3::X * (MASS * 2.0 + 2.0), torque: DVec3::ZERO };
@@ -83,6 +83,6 @@ fn an_oblique_impact_gains_no_energy_at_any_instant() {
         before = mechanical(&world);
     }
     println!("largest rise {rise:.1e} J of {start:.3} J, final energy {:.3} J", before);
-    // Target: 1e-6 of the energy at the start.
+    // Target: rise of the mechanical energy below 1e-6 of the energy at the start.
     assert!(rise < 1e-6 * start && before < 0.9 * start);
 }

@@ -32,7 +32,8 @@ fn principal(inertia: DMat3) -> (DVec3, DQuat) {
     (moments, DQuat::from_mat3(&DMat3::from_cols(columns[0], columns[1], columns[2])))
 }
 
-/// Returns the time between flips of a body with principal moments i and a spin w nearly about its middle axis.
+/// Returns the time between flips of a body that spins with w nearly about its middle axis. The principal moments of
+/// inertia are i = (I_1, I_2, I_3), in rising order.
 ///
 /// The time is 2 K(k)/p, with the complete elliptic integral K, the angular momentum L and the kinetic energy E.
 /// For L^2 > 2 E I_2, p^2 = (I_3 - I_2)(L^2 - 2 E I_1)/(I_1 I_2 I_3) and
@@ -84,8 +85,8 @@ fn a_free_core_loc_keeps_its_angular_momentum_and_flips_with_the_period_of_theor
 }
 
 /// A symmetric top on a smooth plane; its centre of mass is `arm` above the centre of its ball tip and moves vertically
-/// only. The rate W of steady precession at the tilt t follows from A W^2 cos t - C w W + m g l = 0, with the
-/// moments of inertia A across and C along the axis, the spin w and the arm l.
+/// only. The rate W of steady precession at the tilt t follows from A W^2 cos t - C w W + m g l = 0, with the moments
+/// of inertia A across and C along the axis, the spin w, the mass m and the arm l.
 #[test]
 fn a_top_precesses_at_the_rate_of_theory() {
     let (mass, arm, tip) = (0.3, 0.05, 0.005);
@@ -121,7 +122,7 @@ fn a_top_precesses_at_the_rate_of_theory() {
         turned / 2.0,
         axis.z.acos()
     );
-    // Limit 0.5 %: the initial overlap differs by 0.01 mm from the overlap at rest, which causes a small nutation.
+    // Limit 0.5 % for the precession: the initial overlap is 0.01 mm off, which causes a small nutation.
     assert!((turned / 2.0 / rate - 1.0).abs() < 0.005);
     assert!((axis.z.acos() - tilt).abs() < 0.01);
 }

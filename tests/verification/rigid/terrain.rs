@@ -53,9 +53,9 @@ fn a_tetrapod_slides_over_a_terrain_edge_like_over_exact_planes() {
         let [a, b] = [0, 1].map(|k| worlds[k].states()[0]);
         let distance = a.position.distance(b.position);
         println!("{:.3} s: x = {:.5} m, {distance:.1e} m apart", worlds[0].time(), a.position.x);
-        // On the crest both surfaces agree to rounding. The legs touch the lee edge while they press into the crest.
-        // For contacts with triangles, overlap counts from the first touch, which changes the rolling by up to a
-        // millimetre.
+        // On the crest the motions on both surfaces agree to rounding. Then the legs touch the lee edge while they
+        // press into the crest. For contacts with triangles, overlap counts from the first touch, which changes the
+        // rolling by up to a millimetre.
         assert!(distance < if worlds[0].time() < 0.18 { 1e-12 } else { 1e-3 });
     }
     assert!(worlds[0].states()[0].position.x > 0.25);
@@ -78,9 +78,8 @@ fn a_ball_oscillates_in_a_terrain_trough_without_loss() {
     })
     .unwrap();
     let before = total_energy(&world);
-    // Without friction the ball does not rotate, so it moves like a pendulum. Its length is the radius of the
-    // trough minus the radius of the ball. The finite angle
-    // lengthens the period by the share angle^2 / 16.
+    // Without friction the ball does not rotate, so it moves like a pendulum. Its length is the radius of the trough
+    // minus the radius of the ball. The finite angle lengthens the period by the share angle^2 / 16.
     let period = std::f64::consts::TAU * (pendulum_length / 9.81).sqrt() * (1.0 + angle * angle / 16.0);
     let (mut crossings, mut last) = (Vec::new(), start.x);
     while world.time() < 3.3 * period {
@@ -97,7 +96,7 @@ fn a_ball_oscillates_in_a_terrain_trough_without_loss() {
         "period {found:.4} s, {period:.4} s expected; energy loss {:.1e} of {before:.3} J",
         before - e.kinetic - e.potential - e.elastic
     );
-    // Limit 1 %: facets of 0.02 rad disturb the ball a little.
+    // Limit 1 % for the period: facets of 0.02 rad disturb the ball a little.
     assert!((found / period - 1.0).abs() < 0.01);
     let fall =
         4.0 / 3.0 * std::f64::consts::PI * radius.powi(3) * 2400.0 * 9.81 * pendulum_length * (1.0 - angle.cos());
@@ -142,7 +141,7 @@ fn ten_tetrapods_come_to_rest_on_rough_rock() {
         100.0 * world.deepest_overlap() / HEIGHT,
         world.contact_count()
     );
-    // Targets, as for piles: kinetic energy and rise 1e-6 of the potential energy, overlap 1 % of the height.
+    // Targets: kinetic energy and energy rise below 1e-6 of the potential energy, overlap below 1 % of the unit height.
     assert!(e.kinetic < 1e-6 * drop && rise < 1e-6 * start.potential.abs());
     assert!(world.deepest_overlap() < 0.01 * HEIGHT);
 }

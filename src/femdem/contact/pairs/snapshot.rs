@@ -11,7 +11,7 @@ use crate::femdem::setup::Setup;
 /// faces determine them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactSnapshot {
-    /// Tetrahedra of each pair, the pairs in ascending order.
+    /// Tetrahedra of each pair; the pairs are in ascending order.
     pub tets: Vec<[u32; 2]>,
     /// Initial overlap of each pair that does not count [m3]; NaN before the first evaluation of the pair.
     pub initial_overlap: Vec<f64>,

@@ -12,8 +12,8 @@ fn pair(inherited_energy: f64) -> Pair {
     Pair { tets, penalty, law, initial_overlap, inherited_energy, spring: None, forces: None, stored, dissipated }
 }
 
-/// Returns two overlapping tetrahedra of about 1 cm. `further` [m] is an additional displacement of the second one that
-/// increases the overlap.
+/// Returns two overlapping tetrahedra of about 1 cm. `further` [m] is an additional displacement of the second
+/// tetrahedron that increases the overlap.
 fn corners(further: f64) -> [[DVec3; 4]; 2] {
     let one = regular_tetrahedron(DVec3::ZERO, 0.01);
     let shift = DVec3::new(6e-3, 1e-3, -2e-3) - further * DVec3::X;
@@ -47,7 +47,8 @@ fn half_a_time_step_earlier_the_pair_had_the_energy_of_the_joint() {
     let moves = [[DVec3::ZERO; 4], [-way * DVec3::X; 4]];
     let mut pair = pair(1e-2);
     pair.evaluate(corners(0.0), || moves);
-    // The work of the current force over half a time step. Tolerance: rounding of the energy of the whole overlap.
+    // `work` is the work of the current force over half a time step. Tolerance: rounding of the energy of the whole
+    // overlap.
     let work = force_x(&pair) * 0.5 * way;
     assert!((pair.stored - work - 1e-2).abs() < 1e-9 && (pair.inherited_energy - 1e-2).abs() < 1e-9, "{pair:?}");
 }

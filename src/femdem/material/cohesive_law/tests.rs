@@ -58,7 +58,7 @@ fn tensile_failure_reaches_the_strength_and_dissipates_the_fracture_energy() {
     assert!((path.work / 50.0 - 1.0).abs() < 1e-3 && (path.dissipated / 50.0 - 1.0).abs() < 1e-3);
     assert_eq!((path.last.normal, path.stored), (0.0, 0.0));
     let published = follow_path(&law(Range::Published), ramp(1e-4, 40_000).map(|d| (d, 0.0)));
-    // 3 I G_f after the peak, with I = `AREA`, plus 2/3 f_t delta_np before the peak.
+    // The expected work is 3 I G_f after the peak, with I = `AREA`, plus 2/3 f_t delta_np before the peak.
     let expected = 3.0 * AREA * 50.0 + 2.0 / 3.0 * 3.3e6 * 2.0 * H * 3.3e6 / PENALTY;
     assert!((published.work / expected - 1.0).abs() < 1e-3, "{}", published.work);
 }

@@ -34,7 +34,7 @@ pub(super) struct Sections {
 /// Elements of one shape in one entity.
 #[derive(Debug)]
 pub(super) struct ElementBlock {
-    /// 0 for a point, 1 for a curve, 2 for a surface, 3 for a volume.
+    /// Dimension of the entity: 0 for a point, 1 for a curve, 2 for a surface, 3 for a volume.
     pub dimension: i32,
     /// Number of the entity.
     pub entity: i32,
@@ -47,7 +47,7 @@ pub(super) struct ElementBlock {
 }
 
 impl Sections {
-    /// Reads a whole file. Memory and time depend only on the size of the file, also if the file states wrong counts.
+    /// Reads a whole file. Memory and time depend only on the size of the file, even if the file states wrong counts.
     pub(super) fn read(bytes: &[u8]) -> Result<Self, MshError> {
         let mut source = Source::new(bytes)?;
         let mut content = Self::default();

@@ -118,7 +118,7 @@ impl<'a> Source<'a> {
         } else {
             let read = &self.bytes[..position];
             let line = 1 + read.iter().filter(|byte| **byte == b'\n').count();
-            // If the position is in white space, the line of the next number is returned.
+            // If the position is in white space, the function returns the line of the next number.
             let space = self.bytes[position..].iter().take_while(|byte| byte.is_ascii_whitespace());
             FilePosition::Line(line + space.filter(|byte| **byte == b'\n').count())
         }

@@ -160,10 +160,10 @@ fn unexpected_words_are_reported_with_line_and_section() {
     let line = 1 + text()[..text().find("0.0 1.0 0.0 \n").unwrap()].matches('\n').count();
     let message = error_with("0.0 1.0 0.0 \n", "0.0 half 0.0 \n");
     assert_eq!(message, format!("line {line}, section $Nodes: found \"half\", expected a number"));
-    // The stated number of nodes is one too high, so the reader takes a coordinate for a tag.
+    // The stated number of nodes is one too high, so the reader reads a coordinate as a tag.
     let message = error_with("3 1 0 12 \n", "3 1 0 13 \n");
     assert!(message.contains("section $Nodes: found \"0.0\", expected a count or a tag"), "{message}");
-    // The stated number of nodes is one too low, so the reader takes the last tag for a coordinate, and numbers remain.
+    // The stated number of nodes is one too low, so the reader reads the last tag as a coordinate. Numbers remain.
     let message = error_with("3 1 0 12 \n", "3 1 0 11 \n");
     assert!(message.contains("section $Nodes: ") && message.contains("expected the end of the section"), "{message}");
     let message = error_with("3 1 4 12 \n", "3 1 4 99999999999999999 \n");

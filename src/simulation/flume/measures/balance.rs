@@ -1,4 +1,4 @@
-//! Energy balance of the water: energy received from boundaries, viscosity, diffusion and zones.
+//! Energy balance of the water: energy that it receives from boundaries, viscosity, density diffusion and zones.
 //!
 //! The powers [W] are evaluated at each row of `energy.csv` and integrated by the trapezoidal rule. The sum differs
 //! from the change of the water's energy for two reasons: time integration and trapezoidal rule have errors, and

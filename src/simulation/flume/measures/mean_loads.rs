@@ -1,7 +1,8 @@
 //! Loads on the units, averaged over the time between two rows of `units.csv`.
 //!
-//! The impulse of water at an impermeable surface lasts one time step, and a contact may begin and end between two
-//! rows. Loads at the times of the rows would represent neither. A mean load times the interval is the exact impulse.
+//! At an impermeable surface, a water particle acts on a unit for one time step only, and a contact can begin and end
+//! between two rows. The loads at the times of the rows could miss both. The mean load times the time between two rows
+//! is the exact impulse.
 
 use serde::{Deserialize, Serialize};
 

@@ -53,11 +53,11 @@ mod tests {
     #[test]
     fn trembling_units_are_at_rest_and_creeping_units_are_not() {
         let still = stayed(|_| (DVec3::ZERO, DQuat::IDENTITY));
-        // Oscillation with 7 mm/s and an amplitude of 0.1 mm.
+        // The centre oscillates with an amplitude of 0.1 mm, at up to 7 mm/s.
         let trembles =
             stayed(|t| (1e-4 * (70.0 * t).sin() * DVec3::X, DQuat::from_rotation_y(1e-3 * (50.0 * t).cos())));
         assert_eq!([still, trembles], [1.0; 2]);
-        // At 3 mm/s, a unit moves by 1 mm in 0.33 s. The criterion then starts again, so it never exceeds this time.
+        // At 3 mm/s, a unit moves by 1 mm in 0.33 s. The criterion then starts again, so it never returns more.
         assert!(stayed(|t| (3e-3 * t * DVec3::Y, DQuat::IDENTITY)) < 0.34);
         // The tips are 4 cm from the centre: at 0.1 rad/s they move at 4 mm/s, which is 1 mm in 0.25 s.
         assert!(stayed(|t| (DVec3::ZERO, DQuat::from_rotation_z(0.1 * t))) < 0.26);

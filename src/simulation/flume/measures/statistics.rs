@@ -18,10 +18,10 @@ pub struct Statistics {
     /// Sum of the water forces on each unit [N], and number of time steps in the sum. The sum covers the second half of
     /// the time before the release of the units.
     still_force: (Vec<[f64; 3]>, u64),
-    /// Largest water force on each unit [N]: mean force between two rows of `units.csv`, minus the mean force of the
-    /// still water.
+    /// Largest water force on each unit [N]: the mean force between two rows of `units.csv`, minus the mean force of
+    /// the still water.
     pub peak_fluid_force: Vec<f64>,
-    /// Largest contact force on each unit [N]: mean force between two rows of `units.csv`.
+    /// Largest contact force on each unit [N], as a mean over the time between two rows of `units.csv`.
     pub peak_contact_force: Vec<f64>,
     /// Number of contacts of each unit: first with bed and walls, then with other units. A contact of two units counts
     /// only for the unit that is the first body of the contact.
@@ -88,7 +88,7 @@ impl Statistics {
         *count += 1;
     }
 
-    /// Returns the mean force of the still water on a unit [N]; zero if the units were free from the start.
+    /// Returns the time-averaged force of the still water on a unit [N]; zero if the units were free from the start.
     pub fn still_force(&self, unit: usize) -> DVec3 {
         let (sums, count) = &self.still_force;
         DVec3::from(sums[unit]) / (*count).max(1) as f64

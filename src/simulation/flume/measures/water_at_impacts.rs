@@ -13,9 +13,9 @@ use crate::{
 pub struct WaterAtImpacts(pub BTreeMap<u64, FluidAtPeak>);
 
 impl WaterAtImpacts {
-    /// Records the water `loads` of a time step for each hard contact whose force peak is in this time step. The time
-    /// step began at `since` [s], in the time of the rigid-body solver. Removes contacts that are neither active nor
-    /// among the hardest.
+    /// Records the water `loads` of a time step for each of the hardest contacts whose force peak is in this time step.
+    /// The time step began at `since` [s], in the time of the rigid-body solver. Removes contacts that are neither
+    /// active nor among the hardest of their unit.
     pub fn note(&mut self, world: &RigidWorld, since: f64, loads: &[Load], boundary: &Boundary, tait: &Tait) {
         let mut noted = false;
         for event in world.impacts_with_peak_after(since) {

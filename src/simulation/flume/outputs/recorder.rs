@@ -126,7 +126,7 @@ impl Recorder {
         Self::reopen(simulation, dir, state)
     }
 
-    /// Returns the number of times that each output was written, and the lengths of the tables.
+    /// Returns how often each output was written, and the lengths of the tables.
     pub fn state(&self) -> &RecorderState {
         &self.state
     }
@@ -329,7 +329,7 @@ fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 10] {
     ]
 }
 
-/// Returns the flume time minus the time of the rigid-body solver [s], which starts at the release of the units.
+/// Returns the flume time minus the time of the rigid-body solver [s]. This solver starts at the release of the units.
 fn contact_clock(simulation: &Simulation, units: &Units) -> f64 {
     simulation.flume_time() - units.world.time()
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Number of times that each output was written, and lengths of the tables; part of every checkpoint.
+/// How often each output was written, and the lengths of the tables; part of every checkpoint.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct RecorderState {
     /// Number of times at which the tables received rows.

@@ -167,7 +167,7 @@ impl Frame {
     }
 }
 
-/// Returns the indices of the particles inside a box [m]; of all particles if there is no box.
+/// Returns the indices of the particles inside a box [m], or the indices of all particles if there is no box.
 fn particles_in(water: &Water, corners: Option<[[f64; 3]; 2]>) -> Vec<u32> {
     let all = 0..water.len() as u32;
     let Some([low, high]) = corners.map(|corners| corners.map(glam::DVec3::from_array)) else { return all.collect() };
@@ -213,7 +213,7 @@ mod tests {
         for (point, &id) in frame.points.iter().zip(id) {
             assert_eq!(*point, simulation.water.position[index_of(id)].as_vec3().to_array());
         }
-        // Still water with the level 0.3 m: p = rho g (0.3 m - z). The density rises with depth: limit 1 %.
+        // The still water level is 0.3 m: p = rho g (0.3 m - z). The density rises with depth, so p may differ by 1 %.
         let expected = |point: &[f32; 3]| 9810.0 * (0.3 - point[2]);
         assert!(frame.points.iter().zip(pressure).all(|(point, p)| (p / expected(point) - 1.0).abs() < 0.01));
     }

@@ -12,7 +12,7 @@ use crate::{
     waves::theory::solitary::PistonTheory,
 };
 
-/// Summarises a run; reads the crests from the gauge tables in the run folder `dir`.
+/// Summarises a run; reads the highest elevation at each gauge from the gauge tables in the run folder `dir`.
 ///
 /// # Errors
 /// If the gauge tables cannot be read.

@@ -17,8 +17,8 @@ use crate::{
     },
 };
 
-/// Longest time between two records of the flume model or of the piston motion [s]. It is short compared with a
-/// solitary wave, which lasts for some seconds.
+/// Longest time between two records of the flume model or of the piston motion [s]. It is short compared with the
+/// duration of a solitary wave, some seconds.
 const LONGEST_INTERVAL: f64 = 0.02;
 /// Smallest number of records per wave period.
 const RECORDS_PER_PERIOD: f64 = 60.0;
@@ -32,8 +32,8 @@ const FLUME_MARGIN: f64 = 1.5;
 const ARRIVAL_ALLOWANCE: f64 = 2.5;
 
 /// Time constant, in wave periods, with which the rows of a piston return to their start positions against the drift of
-/// the water. The return reduces the height of the oscillation by only 1 / (2 pi 4)^2 / 2 = 0.08 %, and shifts its
-/// phase by 2.3 degrees.
+/// the water. With 4 wave periods, the return reduces the oscillation of the rows by only 1 / (2 pi 4)^2 / 2 = 0.08 %,
+/// and shifts its phase by 2.3 degrees.
 const DRIFT_PERIODS: f64 = 4.0;
 
 /// Runs the flume model until the end of the particle run. Returns `None` if the wave of the case does not come from

@@ -1,11 +1,11 @@
 //! Damping and relaxation zones at the ends of the domain, in which the water approaches a target velocity v'.
 //!
-//! dv/dt = -f(x) (v - v'), solved exactly over a time step, after the forces: v <- v' + (v - v') exp(-f dt). This
-//! solution is stable for any rate f, and gives the energy that the water receives, exact to rounding.
+//! The velocity v of the water follows dv/dt = -f(x) (v - v'), with the rate f [1/s]. After the forces, the program
+//! solves this equation exactly over a time step dt: v <- v' + (v - v') exp(-f dt). The solution is stable for any f.
 //!
-//! - Damping zone, v' = 0: absorbs waves at the shoreward end (passive absorption of Altomare et al. 2017, section 2.4;
-//!   called sponge layer by Molteni et al. 2013).
-//! - Relaxation zone, v' from the flume model: the wave enters at the seaward end. The zone reflects a part of the
+//! - Damping zone, v' = 0: it absorbs waves at the shoreward end (passive absorption of Altomare et al. 2017, section
+//!   2.4; called sponge layer by Molteni et al. 2013).
+//! - Relaxation zone, v' from the flume model: here the wave enters at the seaward end. The zone reflects a part of the
 //!   waves that return from the structure (Altomare et al. 2018).
 
 use glam::DVec3;

@@ -7,7 +7,8 @@ use super::surface::van_leer;
 
 impl LayeredFlume {
     /// Computes the upward volume flux through the interface below each layer, relative to the interface [m2/s]:
-    /// omega_{m+1} = omega_m + sum(dQ) / K - dQ_m, with the net outflow dQ_m through both faces of layer m.
+    /// omega_{m+1} = omega_m + sum(dQ) / K - dQ_m. omega_m is the flux below layer m, dQ_m the net outflow through both
+    /// faces of layer m, and sum(dQ) the outflow from all K layers.
     pub(super) fn exchange_between_layers(&mut self) {
         let k = self.layers;
         for cell in 0..self.grid.cells() {
@@ -27,8 +28,8 @@ impl LayeredFlume {
     }
 
     /// Advection term of u_m at an inner face [m/s2]:
-    /// ([F (u_c - u)]_right - [F (u_c - u)]_left + vertical exchange) / (h dx). At the centre of the cell on
-    /// each side, F is the volume flux and u_c the upwind value of u_m.
+    /// ([F (u_c - u)]_right - [F (u_c - u)]_left + vertical exchange) / (h dx), where u is u_m at the face, h the layer
+    /// depth and dx the cell spacing. F and u_c are volume flux and upwind value of u_m at the centre of each cell.
     pub(super) fn advection_of_u(&self, face: usize, m: usize) -> f64 {
         let (k, left, right) = (self.layers, face - 1, face);
         let u = self.u[face * k + m];
@@ -94,8 +95,8 @@ fn quick(far: f64, up: f64, down: f64) -> f64 {
     0.75 * up + 0.375 * down - 0.125 * far
 }
 
-/// Vertical exchange term of layer m: omega_above (v_above - v) - omega_below (v_below - v), where the interface values
-/// v_above and v_below are the means of the adjacent layers.
+/// Vertical exchange term of the velocity v of layer m: omega_above (v_above - v) - omega_below (v_below - v). omega is
+/// the upward volume flux through an interface; v_above and v_below are the means of the two layers at an interface.
 fn exchange(below: f64, above: f64, layers: &[f64], m: usize) -> f64 {
     let jump = |other: usize| 0.5 * (layers[other] - layers[m]);
     let from_below = if m > 0 { below * jump(m - 1) } else { 0.0 };

@@ -67,7 +67,7 @@ impl BlockTridiagonal {
         }
     }
 
-    /// Eliminates q_{i-1} from row i:
+    /// Eliminates q_{i-1} from block row i:
     /// S = D_i - U_{i-1}^T C_{i-1}, C_i = S^-1 U_i, r_i = S^-1 (r_i - U_{i-1}^T r_{i-1}).
     fn eliminate(&mut self, block: usize) {
         let k = self.size;

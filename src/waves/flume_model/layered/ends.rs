@@ -1,14 +1,13 @@
 //! Ends of the flume: wall, piston, wave inflow, radiating end and sponge.
 //!
-//! * Weakly reflecting inflow (Blayo & Debreu 2005; Zijlema et al. 2011, section 4.4): the velocity of the incoming
-//!   wave plus the velocity of an outgoing long wave with the excess elevation, u_m = u_in(z_m) - sqrt(g / d) (eta -
-//!   eta_in).
+//! * Weakly reflecting inflow (Blayo & Debreu 2005; Zijlema et al. 2011, section 4.4): layer m has the velocity
+//!   u_m = u_in(z_m) - sqrt(g / d) (eta - eta_in). u_in and eta_in are velocity and elevation of the incoming wave. The
+//!   excess of the elevation eta leaves as a long wave in the still water depth d.
 //! * Radiating end: the incoming characteristic has its value in still water, so the depth-mean velocity is
-//!   U = 2 (sqrt(g H) - sqrt(g d)), where d is the still water depth. Velocity differences between the layers are
-//!   copied from the nearest inner face. This condition is exact for small long waves; higher or shorter waves are
-//!   partly reflected.
-//! * Sponge: du/dt = - sigma u in front of a wall. sigma grows with the cube of the distance into the sponge (Israeli &
-//!   Orszag 1981).
+//!   2 (sqrt(g H) - sqrt(g d)), with the depth H. Velocity differences between the layers are copied from the nearest
+//!   inner face. This condition is exact for small long waves; higher or shorter waves are partly reflected.
+//! * Sponge: du/dt = - sigma u in front of a wall. The damping rate sigma grows with the cube of the distance into the
+//!   sponge (Israeli & Orszag 1981).
 
 use super::{LayeredFlume, LayeredParameters, LeftEnd, RightEnd};
 

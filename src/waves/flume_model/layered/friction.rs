@@ -11,9 +11,9 @@
 //! between layers, so a stress on the lowest layer alone would let the other layers slide over it. With one layer, this
 //! is equation 6 of Zijlema, Stelling & Smit (2011).
 //!
-//! On a smooth bed the stress is the larger of 3 mu U / H (laminar film) and Blasius's (1913) law. Blasius's law for
-//! smooth walls is f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8). Manning's law is valid for rough
-//! beds; it would slow shallow water on glass too much.
+//! On a smooth bed the stress is the larger of 3 rho nu U / H (laminar film) and Blasius's (1913) law. Blasius's law
+//! for smooth walls is f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8). Manning's law is valid for
+//! rough beds; it would slow shallow water on glass too much.
 
 use super::{DRY_DEPTH_M, Friction, LayeredFlume};
 
@@ -59,7 +59,7 @@ mod tests {
 
     #[test]
     fn smooth_bed_follows_laminar_film_and_smooth_pipe() {
-        // A laminar film on the slope S has the mean velocity U = g S H^2 / (3 nu), and c_f U^2 balances g H S.
+        // A laminar film of depth H on the slope S has the mean velocity U = g S H^2 / (3 nu); c_f U^2 balances g H S.
         let (depth, nu, slope) = (5e-4f64, 1e-6, 0.01);
         let velocity = 9.81 * slope * depth * depth / (3.0 * nu);
         let c_f = smooth_coefficient(velocity * depth / nu);

@@ -1,6 +1,7 @@
 //! Non-hydrostatic pressure: Keller box in the vertical (Stelling & Zijlema 2003; Zijlema & Stelling 2005).
 //!
-//! The unknown is q at the bottom of each layer, linear within a layer and zero at the surface. The accelerations are
+//! The unknown q_m is the pressure, divided by the density, at the bottom of layer m. q is linear within a layer and
+//! zero at the surface. With the layer depth h_m, the accelerations are
 //!
 //! ```text
 //! du_m/dt = - [dx q_bar_m - (q_{m+1} - q_m) dx z_m / h_m],   dw_m/dt = - (q_{m+1} - q_m) / h_m
@@ -63,7 +64,7 @@ impl LayeredFlume {
         Gradient::new(self.grid.spacing(face), slope, self.layer_depth_at(face))
     }
 
-    /// Assembles the system A q dt = C(u*, w*), with the error C of continuity of the provisional velocities u* and w*.
+    /// Assembles the system A (q dt) = C(u*, w*). C is the continuity error of the provisional velocities u* and w*.
     fn assemble(&mut self) {
         let (k, cells) = (self.layers, self.grid.cells());
         self.system.clear();

@@ -105,8 +105,8 @@ impl LayeredFlume {
     }
 }
 
-/// w at the interfaces, from w in the middle of the layers and at the bed: means between layers, extrapolated to the
-/// surface.
+/// w at the interfaces, from w in the middle of the layers and at the bed: the mean of two layers between them, and an
+/// extrapolation at the surface.
 fn at_interfaces(middle: &[f64], bed: f64) -> Vec<f64> {
     let mut w = vec![bed];
     w.extend(middle.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));

@@ -1,10 +1,11 @@
 //! Continuity of the water column, wetting and drying, wave breaking.
 //!
-//! * Depth at a face: in calm deep water, the mean of both cells. In shallow, fast or breaking flow, the upwind surface
-//!   level (Stelling & Duinmeijer 2003) minus the higher bed level of both sides, reconstructed with limited slopes.
-//! * Breaking: a front becomes hydrostatic where it rises faster than 0.6 sqrt(g H), and remains hydrostatic while it
-//!   rises faster than 0.3 sqrt(g H) (Smit, Zijlema & Stelling 2013). The front steepens into a bore, in which the
-//!   momentum-conservative scheme dissipates energy.
+//! * Depth at a face: in calm deep water, it is the mean depth of both cells. In shallow, fast or breaking flow, it is
+//!   the upwind surface level (Stelling & Duinmeijer 2003) minus the higher bed level of both sides, reconstructed with
+//!   limited slopes.
+//! * Breaking: where the surface rises faster than 0.6 sqrt(g H) in the depth H, a front becomes hydrostatic. It stays
+//!   hydrostatic while it rises faster than 0.3 sqrt(g H) (Smit, Zijlema & Stelling 2013). The front steepens into a
+//!   bore, in which the momentum-conservative scheme dissipates energy.
 
 use super::{Breaking, DRY_DEPTH_M, LayeredFlume, Pressure};
 
@@ -56,8 +57,8 @@ impl LayeredFlume {
         steepness > onset || (broke_nearby && steepness > persistence)
     }
 
-    /// Weight of the deep-water scheme at an inner face [-]: 1 if the water is deep compared with the difference of
-    /// the bed levels of its two cells, 0 if the water is shallow.
+    /// Weight of the deep-water form of the face depth (see the top of the file) [-]: 1 if the water is deep compared
+    /// with the difference of the bed levels of the two cells at the face, 0 if the water is shallow.
     fn deep_share(&self, face: usize) -> f64 {
         let step = 2.0 * (self.grid.bed[face] - self.grid.bed[face - 1]).abs() + self.hydrostatic_below_m;
         (self.depth[face - 1].min(self.depth[face]) / step - 1.0).clamp(0.0, 1.0)
@@ -199,8 +200,8 @@ impl LayeredFlume {
         std::mem::swap(&mut self.depth, &mut self.next_depth);
     }
 
-    /// Marks the faces through which water can flow, and computes the depth at each face: the mean of its two cells, 0
-    /// at a dry face, extrapolated at the ends.
+    /// Marks the faces through which water can flow, and computes the depth at each face: the mean depth of its two
+    /// cells, 0 at a dry face, an extrapolated depth at the ends.
     pub(super) fn measure_faces(&mut self) {
         let cells = self.grid.cells();
         for face in 1..cells {
