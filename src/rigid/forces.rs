@@ -243,7 +243,7 @@ fn find(
         let left = |(c, used): (&Contact, &bool)| {
             let same_part = (c.key.body, c.key.part) == (key.body, key.part);
             let next = same_part && !*used && are_neighbours(c.key.feature, key.feature) && !touching(&c.key);
-            // Neighbouring ground elements have no gap between them, so `core` moves only a short distance.
+            // Neighbouring ground elements have no gap between them, so the foot point `core` moves only a short way.
             next.then(|| c.core.distance(point.core)).filter(|path| *path < least_radius)
         };
         let paths = before.iter().zip(used.iter()).map(left).enumerate();

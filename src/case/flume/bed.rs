@@ -139,7 +139,7 @@ fn validate_right_end(file: &FlumeFile, check: &mut Checker) -> Option<RightEnd>
         }
         ShorewardEndFile::Sponge(sponge) => {
             let allowed = more_than(0.0).below(end - start);
-            let advice = "the sponge must be shorter than the flume; two wavelengths absorb a wave";
+            let advice = "the sponge must be shorter than the flume; a length of two wavelengths is enough";
             let sound = check.number("flume.right_end.length_m", sponge.length_m, allowed, "m", advice);
             sound.then_some(RightEnd::Sponge { length_m: sponge.length_m })
         }

@@ -41,8 +41,9 @@ pub(in crate::sph) const MIN_DETERMINANT: f64 = 0.01;
 /// 0.2 and 0.4, the thin tip of a dam break on a dry bed was still driven apart (case with three cubes, dp = 0.03 m).
 pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 
-/// Spread of the water around the node along the wall normal, sum g V r_n^2 / sum W V [h2], where g = -G h^2 and r_n is
-/// the normal distance of a particle from the node. From the first to the second value, the trust in the fitted
+/// Spread of the water around the node along the wall normal, sum g V r_n^2 / sum W V [h^2]. Here r_n
+/// is the normal distance of a particle from the node. g is not gravity but -h^2 G, with the factor G of the kernel
+/// gradient grad_a W_ab = G r_ab. From the first to the second value, the trust in the fitted
 /// gradient increases from 0 to 1. For nodes of the first layer of boundary particles, the spread is 0.2 to 0.3 for two
 /// layers of water particles, 0.5 to 0.65 for three layers and 0.74 for deep water. The values are calibrated with
 /// still water on a beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
