@@ -149,7 +149,8 @@ fn write_json(
 fn print(measured: &Measurement) {
     let on = if measured.threads == 0 { "graphics card".to_owned() } else { format!("{} threads", measured.threads) };
     println!(
-        "\n{} water, {on}, {:.0} thousand particles ({:.0} water), {:.0} neighbours, {} steps",
+        "\n{} water, {on}: {:.0} thousand particles ({:.0} thousand of water), {:.0} neighbours per water particle, \
+         {} time steps",
         measured.water,
         measured.particles as f64 / 1e3,
         measured.water_particles as f64 / 1e3,

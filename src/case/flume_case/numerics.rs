@@ -135,11 +135,11 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
     let h = file.smoothing_factor * 3f64.sqrt() * dp;
     // The layers need not cover the outer 30 % of the kernel radius, because this part contributes only a few per
     // cent of the kernel's integral.
-    if f64::from(file.boundary_layers) * dp < 0.7 * 2.0 * h {
+    let least = 0.7 * 2.0 * h;
+    if f64::from(file.boundary_layers) * dp < least {
         check.warn(format!(
-            "numerics.boundary_layers = {}: the layers are thinner than {:.3} m, 70 % of the kernel radius 2h",
-            file.boundary_layers,
-            0.7 * 2.0 * h
+            "numerics.boundary_layers = {}: the layers are thinner than {least:.3} m, 70 % of the kernel radius 2h",
+            file.boundary_layers
         ));
     }
     Some(Numerics {

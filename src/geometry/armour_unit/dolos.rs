@@ -65,11 +65,7 @@ pub fn sections(height_m: f64, waist: f64) -> Vec<Section> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ArmourUnit;
-
-    fn volume(unit: &ArmourUnit) -> f64 {
-        unit.solid.volume_properties().volume
-    }
+    use super::super::{ArmourUnit, tests::volume};
 
     #[test]
     fn dolos_volume_matches_the_published_formula() {

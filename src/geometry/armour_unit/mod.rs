@@ -256,7 +256,7 @@ fn standing_rotation(parts: &[ConvexPart]) -> Result<DQuat, ArmourUnitError> {
 mod tests {
     use super::*;
 
-    fn volume(unit: &ArmourUnit) -> f64 {
+    pub(super) fn volume(unit: &ArmourUnit) -> f64 {
         unit.solid.volume_properties().volume
     }
 

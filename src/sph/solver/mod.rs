@@ -13,5 +13,6 @@ pub mod backend;
 mod group;
 pub mod power;
 pub mod sampling;
+mod state;
 pub mod step;
 pub mod time_step;

@@ -14,7 +14,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{group::Group, time_step::Limits};
+use super::{group::Group, state::State, time_step::Limits};
 use crate::mechanics::Load;
 use crate::sph::{
     boundary::{ghost_velocity::GhostVelocities, mdbc::GhostNodes},
@@ -55,21 +55,6 @@ pub struct Solver {
     half_density: Vec<f64>,
     sorted: Water,
     unit_force: Vec<DVec3>,
-}
-
-/// State of the water at the start of a time step or at the half step.
-#[derive(Clone, Copy)]
-struct State<'a> {
-    position: &'a [DVec3],
-    velocity: &'a [DVec3],
-    density: &'a [f64],
-    mass: &'a [f64],
-}
-
-impl<'a> State<'a> {
-    fn from_water(water: &'a Water) -> Self {
-        Self { position: &water.position, velocity: &water.velocity, density: &water.density, mass: &water.mass }
-    }
 }
 
 impl Solver {
