@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`backend`] | the operations of a time step, on any device |
 //! | [`step`] | equations 7 to 9: symplectic position Verlet, on the processor |
+//! | `state` | the state of the water that the sums over particle pairs read |
 //! | `group` | a group of particles (water, walls or units): sorted positions, neighbour lists, rates |
 //! | [`time_step`] | size of the variable time step |
 //! | [`power`] | power that the water receives from boundaries, viscosity and density diffusion |
