@@ -163,9 +163,16 @@ pub trait Run {
 
 /// Executes a run to its end and shows the progress. `dir` is the run folder.
 ///
+/// The loop runs on a thread of the rayon pool. On any other thread, each of the parallel loops in a time step would
+/// wake the pool and then wait for it, which costs small runs much of their time.
+///
 /// # Errors
 /// If a file cannot be written, the state becomes invalid, or the user stops the run.
-pub fn drive<R: Run>(mut run: R, dir: &Path, control: &Control) -> Result<R::Summary, RunError> {
+pub fn drive<R: Run<Summary: Send> + Send>(run: R, dir: &Path, control: &Control) -> Result<R::Summary, RunError> {
+    rayon::scope(|_| run_loop(run, dir, control))
+}
+
+fn run_loop<R: Run>(mut run: R, dir: &Path, control: &Control) -> Result<R::Summary, RunError> {
     let clock = run.clock();
     let mut progress = Progress::new(clock.end, clock.time, clock.steps, control.quiet);
     let mut warnings_shown = run.warnings().len();

@@ -72,10 +72,13 @@ impl Tips {
     fn of(dp: f64) -> Self {
         let mut dam = dam(dp);
         let mut tips = vec![[0.0, tip(&dam)]];
-        while dam.time < LATEST {
-            dam.step().unwrap();
-            tips.push([dam.time, tip(&dam)]);
-        }
+        // As in `output::driver::drive`, the loop runs on a thread of the rayon pool.
+        rayon::scope(|_| {
+            while dam.time < LATEST {
+                dam.step().unwrap();
+                tips.push([dam.time, tip(&dam)]);
+            }
+        });
         Self(tips)
     }
 

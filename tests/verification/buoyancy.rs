@@ -11,7 +11,7 @@ use super::tanks::{BareTank, GRAVITY, RHO0, UNIT_HEIGHT, run_until, simulation, 
 const LENGTH: f64 = 0.24;
 
 /// Simulated time [s]; the water settles in the first half.
-const DURATION: f64 = 0.3;
+const DURATION: f64 = 0.24;
 
 /// Mean force on a unit in the second half of a run, divided by Archimedes' force [-]. 1 is subtracted from the
 /// vertical part.

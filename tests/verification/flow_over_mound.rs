@@ -90,10 +90,10 @@ fn drag_share(scheme: Scheme, height: f64, dp: f64) -> f64 {
 
 #[test]
 fn drag_over_the_mound_needs_free_slip() {
-    let [no_slip, free_slip] = [NO_SLIP, FREE_SLIP].map(|scheme| drag_share(scheme, 0.045, 0.014));
-    // Reached drag shares: 0.61 with no slip, 0.91 with free slip. The drag on a unit is known to 10 %, so a run that
+    let [no_slip, free_slip] = [NO_SLIP, FREE_SLIP].map(|scheme| drag_share(scheme, 0.045, 0.016));
+    // Reached drag shares: 0.59 with no slip, 0.88 with free slip. The drag on a unit is known to 10 %, so a run that
     // loses 40 % of the drag is not useful.
-    assert!(free_slip > 0.87 && free_slip < 1.03 && no_slip < 0.7);
+    assert!(free_slip > 0.85 && free_slip < 1.03 && no_slip < 0.7);
 }
 
 /// Computes the three waves with each combination of slip and viscosity.

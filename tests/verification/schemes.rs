@@ -33,11 +33,11 @@ fn other_slip() -> Vec<Value> {
 /// Returns the position of the tip [m], the largest rise of energy above an earlier minimum [J], and the energy at the
 /// start [J].
 fn tip_and_gain(numerics: &Value) -> [f64; 3] {
-    let mut case = in_two_dimensions(dam_break(0.05, 0.6));
+    let mut case = in_two_dimensions(dam_break(0.05, 0.5));
     case["numerics"] = numerics.clone();
     let mut dam = simulation(&case);
     let (start, mut lowest, mut gain) = (dam.energy().total(), f64::INFINITY, 0.0_f64);
-    run_until(&mut dam, 0.6, |now| {
+    run_until(&mut dam, 0.5, |now| {
         let total = now.energy().total();
         lowest = lowest.min(total);
         gain = gain.max(total - lowest);
@@ -68,7 +68,7 @@ fn dam_break_tips_agree_for_all_schemes() {
     for (k, tip) in free_slip.iter().enumerate() {
         assert!(free_slip[..k].iter().all(|other| other != tip), "{free_slip:?}");
     }
-    // Without free slip, the tip is about 0.2 m behind the tip with free slip.
+    // Without free slip, the tip is 0.13 to 0.2 m behind the tip with free slip.
     assert!(
         other_slip.iter().all(|other| free_slip.iter().all(|free_tip| other < free_tip)),
         "{free_slip:?} {other_slip:?}"

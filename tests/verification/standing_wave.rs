@@ -98,18 +98,18 @@ fn errors(particles: f64, viscosity: Viscosity) -> [f64; 2] {
 
 #[test]
 fn a_standing_wave_has_the_period_and_decay_of_theory() {
-    let [period, decay] = errors(14.0, Viscosity::MonaghanGingold { nu: NU });
-    // Limit 1 % for the period: the particle spacing is a fourteenth of the depth.
+    let [period, decay] = errors(10.0, Viscosity::MonaghanGingold { nu: NU });
+    // Limit 1 % for the period: the particle spacing is a tenth of the depth.
     assert!(period.abs() < 0.01, "{period}");
     // Limit 10 % for the decay: particles at the surface lack half of their neighbours, so friction is missing in a
-    // layer of about dp / 2. With the height z, the power 2 mu S : S falls as e^(2kz), so the share k dp = 11 % is
-    // missing. Particle noise adds some dissipation.
+    // layer of about dp / 2. With the height z, the power 2 mu S : S falls as e^(2kz), so the share k dp = 16 % is
+    // missing. Particle noise adds dissipation. Reached: +2.3 %, or -1.6 % with 12 particles in the depth.
     assert!(decay.abs() < 0.1, "{decay}");
 }
 
 #[test]
 fn a_standing_wave_decays_too_slowly_with_lo_and_shao() {
-    let [_, decay] = errors(10.0, Viscosity::Laminar { nu: NU, turbulence: None });
+    let [_, decay] = errors(8.0, Viscosity::Laminar { nu: NU, turbulence: None });
     // In irrotational flow the power mu grad v : grad v is half of 2 mu S : S (Colagrossi et al. 2011). Friction is
     // also missing at the surface, so the decay is about a third of the theoretical decay. The test allows decays that
     // are 40 to 80 % slower than in theory.

@@ -34,12 +34,15 @@ pub fn simulation(case: &Value) -> Simulation {
 }
 
 /// Advances until a time [s]; before each time step `observe` gets the prepared state, in which gauges can be read.
-pub fn run_until(simulation: &mut Simulation, end: f64, mut observe: impl FnMut(&mut PreparedStep)) {
-    while simulation.time < end {
-        let mut step = simulation.begin_step().unwrap();
-        observe(&mut step);
-        step.finish().unwrap();
-    }
+pub fn run_until(simulation: &mut Simulation, end: f64, mut observe: impl FnMut(&mut PreparedStep) + Send) {
+    // As in `output::driver::drive`, the loop runs on a thread of the rayon pool.
+    rayon::scope(|_| {
+        while simulation.time < end {
+            let mut step = simulation.begin_step().unwrap();
+            observe(&mut step);
+            step.finish().unwrap();
+        }
+    });
 }
 
 /// Advances by a number of time steps.
@@ -181,7 +184,12 @@ impl BareTank {
     }
 
     /// Advances by one time step and returns the time step [s]. `observe` gets the state before the predictor.
-    pub fn step(&mut self, observe: impl FnOnce(&mut Self)) -> f64 {
+    pub fn step(&mut self, observe: impl FnOnce(&mut Self) + Send) -> f64 {
+        // As in `output::driver::drive`, the time step runs on a thread of the rayon pool.
+        rayon::scope(|_| self.step_in_the_pool(observe))
+    }
+
+    fn step_in_the_pool(&mut self, observe: impl FnOnce(&mut Self)) -> f64 {
         self.solver.sort(&mut self.water, &self.boundary);
         self.solver.build_neighbour_lists(&self.water, &self.boundary);
         self.solver.boundary_densities(&mut self.boundary);

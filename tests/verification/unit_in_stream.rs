@@ -124,7 +124,7 @@ impl Stream {
 /// acceleration.
 fn added_mass(particles: f64, boundary: BoundaryCondition) -> [f64; 2] {
     let mut stream = Stream::new(particles, boundary, 0.0, Position::Middle);
-    stream.settle(0.2);
+    stream.settle(0.1);
     let start = stream.time;
     let acceleration = |time: f64, _, _| ACCELERATION * (0.5 * PI * ((time - start) / RISE).min(1.0)).sin().powi(2);
     let displaced = RHO0 * stream.volume * ACCELERATION;
@@ -155,8 +155,8 @@ fn force_over_pressure(mut stream: Stream, name: &str) -> DVec3 {
 
 #[test]
 fn added_mass_of_a_tetrapod_agrees_with_potential_flow() {
-    let [first, later] = added_mass(8.0, ModifiedDynamic).map(|share| share / BY_POTENTIAL_FLOW);
-    // Reached: 1.2 times the value of potential flow, with 8 and with 11 particles in the height of the unit, because
+    let [first, later] = added_mass(7.0, ModifiedDynamic).map(|share| share / BY_POTENTIAL_FLOW);
+    // Reached: 1.2 times the value of potential flow, with 7, 8 and 11 particles in the height of the unit, because
     // the particles of the unit slow down the adjacent water. Extrapolation with the square root of time to zero
     // thickness of this slow layer gives about 1.
     assert!((1.0..1.25).contains(&first) && later > first, "{first} {later}");

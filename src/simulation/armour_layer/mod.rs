@@ -92,7 +92,12 @@ impl ArmourLayer {
 ///
 /// # Errors
 /// If there is no room for a unit, or the contact solver becomes unstable.
-pub fn place(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<ArmourLayer, PlacementError> {
+pub fn place(job: &LayerJob, report: impl FnMut(usize, f64) + Send) -> Result<ArmourLayer, PlacementError> {
+    // As in `output::driver::drive`, the loop runs on a thread of the rayon pool.
+    rayon::scope(|_| place_rows(job, report))
+}
+
+fn place_rows(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<ArmourLayer, PlacementError> {
     let setup = rigid_setup(&job.units, &job.site, &job.materials, job.contact.law, job.gravity);
     let mut world = RigidWorld::new(RigidSetup { bodies: Vec::new(), ..setup })?;
     let height = job.units.shape.height();

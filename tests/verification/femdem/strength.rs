@@ -40,7 +40,11 @@ fn downwards(speed: f64, after: f64) -> History<1> {
 
 /// Advances until the force has fallen to 0.6 of its peak; `row` is the time between rows [s]. The force is the
 /// increase of work divided by the increase of displacement, so only the constraint with this velocity may do work.
-fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watch: impl Fn(&World) -> f64) -> Curve {
+fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watch: impl Fn(&World) -> f64 + Send) -> Curve {
+    rayon::scope(|_| load_in_the_pool(setup, share, velocity, row, watch))
+}
+
+fn load_in_the_pool(setup: Setup, share: f64, velocity: &History<1>, row: f64, watch: impl Fn(&World) -> f64) -> Curve {
     let mut world = World::new(setup, share);
     let mut rows: Vec<[f64; 3]> = Vec::new();
     let (mut displacement, mut before, mut peak) = (0.0, [0.0; 2], 0.0f64);
@@ -219,11 +223,12 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
 /// (tools/fictitious-crack/beam). Guo's results are 298.8 N with elements of 2.5 mm and 279.3 N with 5 mm.
 const BY_FICTITIOUS_CRACK: f64 = 308.1;
 
-/// Largest load reached with cells of 10 mm and joints of the penalty p_0 = 50 E: 334.5 N, 9 % above the load of the
-/// fictitious crack. With p_0 = 20 E, the loads are 331 and 328 N on cells of 10 and 5 mm respectively.
+/// Largest load reached with cells of 10 mm and joints of the penalty p_0 = 20 E: 338.8 N, 10 % above the load of the
+/// fictitious crack. At half the loading speed, the loads are 331 and 328 N on cells of 10 and 5 mm respectively. With
+/// p_0 = 50 E and cells of 10 mm, they are 339.8 N, and 334.5 N at half the loading speed.
 #[test]
 fn a_beam_breaks_at_the_load_of_a_fictitious_crack() {
-    let [peak, _] = bend_beam(4, 50.0, false, 0.025);
+    let [peak, _] = bend_beam(4, 20.0, false, 0.05);
     // Target: within 15 % of the load of the fictitious crack.
     assert!((peak / BY_FICTITIOUS_CRACK - 1.0).abs() < 0.15, "{peak:.1} N");
 }
@@ -244,7 +249,7 @@ fn a_beam_of_soft_joints_breaks_at_the_published_load() {
 /// of 10 and 5 mm, the beam breaks at 429 and 360 N, 39 and 17 % above the load of the fictitious crack.
 #[test]
 fn a_beam_bends_with_the_stiffness_of_beam_theory() {
-    let [_, stiffness] = bend_beam(4, 10.0, true, 0.025);
+    let [_, stiffness] = bend_beam(4, 10.0, true, 0.05);
     // Target: stiffness within 3 % of Timoshenko's 4.07 MN/m.
     assert!((stiffness / 4.07e6 - 1.0).abs() < 0.03, "{:.3} MN/m", stiffness / 1e6);
 }

@@ -107,7 +107,7 @@ fn a_pile_has_the_same_bits_for_any_number_of_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut world = RigidWorld::new(lattice(120, 6, 5)).unwrap();
-            world.advance(0.25, &vec![Load::default(); 120]).unwrap();
+            world.advance(0.15, &vec![Load::default(); 120]).unwrap();
             world.states().to_vec()
         })
     };
