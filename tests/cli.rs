@@ -130,6 +130,35 @@ fn run_refuses_every_bad_case_and_leaves_no_folder() {
     }
 }
 
+/// `/dev/full` refuses everything that is written to it, like a full disk.
+#[cfg(target_os = "linux")]
+#[test]
+fn no_command_panics_if_its_output_cannot_be_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let (case, out) = (tiny_case(folder.path()), folder.path().join("out"));
+    let wave = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/tutorial/wave-alone.json");
+    let full = || std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let commands: [&[&str]; 7] = [
+        &["--help"],
+        &["check", path(&case)],
+        &["schema"],
+        &["unit", "tetrapod", "--height-m", "1"],
+        &["devices"],
+        &["wave", path(&wave), "--overwrite", "--out", path(&out)],
+        &["run", path(&case), "--overwrite", "--out", path(&out)],
+    ];
+    for arguments in commands {
+        let ended = breakwater().args(arguments).stdout(full()).output().unwrap();
+        let message = text(&ended.stderr);
+        assert_eq!(ended.status.code(), Some(1), "{arguments:?}: {message}");
+        assert!(message.contains("cannot write") && !message.contains("panicked"), "{arguments:?}: {message}");
+        // Nobody can read the standard error, so only the exit code shows a panic, which has the code 101.
+        let ended = breakwater().args(arguments).stdout(full()).stderr(full()).output().unwrap();
+        assert_eq!(ended.status.code(), Some(1), "{arguments:?}");
+    }
+    assert!(out.join("summary.json").exists(), "the results of the run must be complete");
+}
+
 #[test]
 fn run_refuses_bad_arguments_and_leaves_no_folder() {
     let folder = tempfile::tempdir().unwrap();

@@ -110,13 +110,14 @@ fn convex_parts_come_from_files_or_from_decomposition() {
 fn a_surface_that_intersects_itself_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let cube = ArmourUnit::cuboid(DVec3::splat(0.2), 0.05).unwrap();
-    let (mut vertices, mut triangles) = (cube.solid().vertices().to_vec(), cube.solid().triangles().to_vec());
-    // The second cube overlaps the first.
-    let first = vertices.len() as u32;
-    vertices.extend(cube.solid().vertices().iter().map(|v| *v + DVec3::new(0.1, 0.03, 0.02)));
-    triangles.extend(cube.solid().triangles().iter().map(|t| t.map(|v| v + first)));
-    stl::write(&folder.path().join("two.stl"), &vertices, &triangles).unwrap();
-    let case = settling_case(json!({ "path": "two.stl" }), json!([{ "centre_m": [0.0, 0.5, 0.3] }]));
+    let (mut vertices, triangles) = (cube.solid().vertices().to_vec(), cube.solid().triangles().to_vec());
+    // A corner of the top is pushed through the bottom.
+    let corner = vertices.iter().position(|v| v.min_element() > 0.0).unwrap();
+    vertices[corner].z = -0.15;
+    vertices[corner].x = 0.05;
+    vertices[corner].y = 0.05;
+    stl::write(&folder.path().join("folded.stl"), &vertices, &triangles).unwrap();
+    let case = settling_case(json!({ "path": "folded.stl" }), json!([{ "centre_m": [0.0, 0.5, 0.3] }]));
     let error = try_run(&case, folder.path()).unwrap_err();
     assert!(error.contains("does not intersect itself") && error.contains("units.stl.path"), "{error}");
 }
@@ -254,6 +255,114 @@ fn a_run_on_terrain_keeps_the_surface_in_its_folder() {
         std::fs::read(run.join("terrain.stl")).unwrap(),
         std::fs::read(folder.path().join("terrain.stl")).unwrap()
     );
+}
+
+/// Returns the text of an STL file with one solid per list of triangles.
+fn stl_text(solids: &[Vec<[[f64; 3]; 3]>]) -> String {
+    let vertex = |[x, y, z]: &[f64; 3]| format!("vertex {x} {y} {z}\n");
+    let facet = |corners: &[[f64; 3]; 3]| {
+        let corners: String = corners.iter().map(vertex).collect();
+        format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+    };
+    let solid = |triangles: &Vec<_>| format!("solid\n{}endsolid\n", triangles.iter().map(facet).collect::<String>());
+    solids.iter().map(solid).collect()
+}
+
+/// Returns two triangles that face up: a rectangle from (x0, y0) to (x1, y1) at the level z [m].
+fn plate([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], z: f64) -> Vec<[[f64; 3]; 3]> {
+    let [a, b, c, d] = [[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]];
+    vec![[a, b, c], [a, c, d]]
+}
+
+/// Settles a cube of 0.1 m on a terrain and returns the level of its centre [m], or the reason of the refusal.
+fn settled_level(terrain: &str, folder: &Path, change: impl FnOnce(&mut Value)) -> Result<f64, String> {
+    std::fs::write(folder.join("terrain.stl"), terrain).unwrap();
+    let mut case = settling_case(json!(null), json!([{ "centre_m": [0.5, 0.5, 0.26] }]));
+    case["flume"]["bed_m"] = json!([[-2.0, -0.5], [2.0, -0.5]]);
+    case["flume"]["terrain"] = json!({ "path": "terrain.stl" });
+    case["units"]["shape"] = json!("cuboid");
+    case["units"]["size_m"] = json!([0.1, 0.1, 0.1]);
+    case["units"].as_object_mut().unwrap().remove("stl");
+    case["stop"]["duration_s"] = json!(0.3);
+    change(&mut case);
+    let name = folder.join("case.json").display().to_string();
+    let case = DryTestCase::from_str(&case.to_string(), &name).map_err(|errors| errors.to_string())?;
+    let mut run = DryTest::new(Arc::new(case)).map_err(|error| error.to_string())?;
+    while run.time() < 0.3 {
+        run.advance(0.3).map_err(|error| error.to_string())?;
+    }
+    Ok(run.world.states()[0].position.z)
+}
+
+#[test]
+fn all_solids_of_a_terrain_carry_a_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let (toe, berm) = (plate([-1.0, 0.0], [0.0, 1.0], 0.0), plate([0.0, 1.0], [0.0, 1.0], 0.2));
+    let halves = [plate([0.0, 0.5], [0.0, 1.0], 0.2), plate([0.5, 1.0], [0.0, 1.0], 0.2)];
+    let one = [toe.clone(), berm.clone()].concat();
+    let layouts = [
+        vec![one],
+        vec![toe.clone(), berm.clone()],
+        vec![berm, toe.clone()],
+        vec![toe, Vec::new(), halves[0].clone(), halves[1].clone()],
+    ];
+    for solids in layouts {
+        let level = settled_level(&stl_text(&solids), folder.path(), |_| ()).unwrap();
+        // The cube rests on the berm at 0.2 m. Limit 1 mm: the overlap of the contact.
+        assert!((level - 0.25).abs() < 1e-3, "{level} m with {} solids", solids.len());
+    }
+}
+
+#[test]
+fn a_misplaced_terrain_is_refused_with_the_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |x: [f64; 2], y: [f64; 2], z: f64| stl_text(&[plate(x, y, z)]);
+    let around = |z: f64| at([-1.0, 1.0], [0.0, 1.0], z);
+    let reversed = |mut triangles: Vec<[[f64; 3]; 3]>| {
+        triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+        stl_text(&[triangles])
+    };
+    let refused = [
+        (at([-1000.0, 1000.0], [0.0, 1000.0], 200.0), "write 0.001 for a file in millimetres"),
+        (at([-1e-3, 1e-3], [0.0, 1e-3], 2e-4), "must be of about the size of the domain"),
+        (at([3.0, 5.0], [0.0, 1.0], 0.2), "must be in the domain, x = -1 to 1 m, y = 0 to 1 m"),
+        (at([-1.0, 1.0], [-1.0, -0.1], 0.2), "must be in the domain"),
+        (reversed(plate([-1.0, 1.0], [0.0, 1.0], 0.2)), "must be facing up"),
+        (around(2.1), "must be below the top of the walls"),
+        (around(-0.6), "must be above the bed"),
+        (
+            around(0.27),
+            "unit 1 with its centre at (0.5, 0.5, 0.26) m: must be above the terrain, which is at z = 0.27 m",
+        ),
+        (around(0.2).replace("0.2\n", "0,2\n"), "line 4: found `0,2` instead of a number"),
+    ];
+    for (terrain, reason) in refused {
+        let error = settled_level(&terrain, folder.path(), |_| ()).unwrap_err();
+        assert!(error.contains(reason), "{error}, expected {reason}");
+    }
+    settled_level(&at([-1000.0, 1000.0], [0.0, 1000.0], 200.0), folder.path(), |case| {
+        case["flume"]["terrain"]["scale"] = json!(0.001);
+    })
+    .unwrap();
+}
+
+#[test]
+fn a_file_with_two_bodies_is_no_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = ArmourUnit::cuboid(DVec3::splat(0.1), 0.05).unwrap();
+    let (corners, triangles) = (block.solid().vertices(), block.solid().triangles());
+    // The second block stands apart from the first, touches it with a smaller face, or is inside it.
+    for (scale, shift) in [(1.0, 0.2), (0.5, 0.075), (0.5, 0.0)] {
+        let moved = |k: f64, x: f64| {
+            let corner = |v: u32| (k * corners[v as usize] + DVec3::X * x).to_array();
+            triangles.iter().map(|triangle| triangle.map(corner)).collect::<Vec<_>>()
+        };
+        let file = stl_text(&[moved(1.0, 0.0), moved(scale, shift)]);
+        std::fs::write(folder.path().join("unit.stl"), file).unwrap();
+        let case = settling_case(json!({ "path": "unit.stl" }), json!([{ "centre_m": [0.0, 0.5, 0.3] }]));
+        let error = try_run(&case, folder.path()).unwrap_err();
+        assert!(error.contains("must be one body (the file has 2 separate closed surfaces)"), "{error}");
+    }
 }
 
 #[test]

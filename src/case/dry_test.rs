@@ -203,9 +203,14 @@ fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mu
     }
     let highest = flume.profile.extremes_between(file.domain.x_m).1;
     let room = more_than(highest).up_to(highest + 1000.0);
-    let sound = check.number("domain.top_z_m", file.domain.top_z_m, room, "m", "leave room for the units");
+    if !check.number("domain.top_z_m", file.domain.top_z_m, room, "m", "leave room for the units") {
+        return None;
+    }
+    if let Some(terrain) = &terrain {
+        terrain::validate_place(terrain, &flume.profile, [x0, x1], file.domain.width_m, file.domain.top_z_m, check);
+    }
     let (x, width, sides, top_z) = (file.domain.x_m, file.domain.width_m, file.domain.sides, file.domain.top_z_m);
-    sound.then_some(Site { profile: flume.profile, terrain, x, width, sides, top_z })
+    (check.count() == before).then_some(Site { profile: flume.profile, terrain, x, width, sides, top_z })
 }
 
 /// Returns the test and the height by which it lifts the units [m].

@@ -229,6 +229,19 @@ fn print_dry(case: &DryTestCase) {
     };
     println!("  dry test    {test}");
     println!("  bed         x = {} to {} m, {} m wide", case.site.x[0], case.site.x[1], case.site.width);
+    if let Some(terrain) = &case.site.terrain {
+        let [low, high] = terrain.surface.bounds();
+        println!(
+            "  terrain     x = {:.3} to {:.3} m, y = {:.3} to {:.3} m, z = {:.3} to {:.3} m; {}",
+            low.x,
+            high.x,
+            low.y,
+            high.y,
+            low.z,
+            high.z,
+            counted(terrain.surface.triangles().len(), "triangle")
+        );
+    }
     print_units(&case.units);
     case.breakage.iter().for_each(print_breakage);
     println!("  duration    at most {} s", case.stop.duration);

@@ -2,6 +2,9 @@
 //!
 //! Exit codes: 0 success, 1 the work failed, 2 the input was refused (nothing was written).
 
+#[macro_use]
+mod print;
+
 mod bench;
 mod check;
 mod compare;
@@ -86,7 +89,11 @@ impl CommandError {
 
 /// Runs the command that the arguments of the process select, and returns the exit code.
 pub fn main() -> ExitCode {
-    let done = match Arguments::parse().command {
+    let command = match Arguments::try_parse() {
+        Ok(arguments) => arguments.command,
+        Err(message) => return print_message(&message),
+    };
+    let done = match command {
         Command::Run(arguments) => arguments.execute(),
         Command::Resume(arguments) => arguments.execute(),
         Command::Check(arguments) => arguments.execute(),
@@ -111,6 +118,17 @@ pub fn main() -> ExitCode {
         }
         Err(CommandError::Failed(reason)) => {
             eprintln!("{reason}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Prints the help, the version or an error of the command line, and returns the exit code.
+fn print_message(message: &clap::Error) -> ExitCode {
+    match message.print() {
+        Ok(()) => ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2)),
+        Err(error) => {
+            eprintln!("cannot write the help: {error}");
             ExitCode::FAILURE
         }
     }

@@ -87,8 +87,9 @@ impl Solid {
         if properties.volume.is_nan() || properties.volume <= 0.0 {
             return Err(SolidError::VolumeNotPositive(properties.volume));
         }
-        let mesh = TriMesh::with_flags(vertices, triangles, TriMeshFlags::ORIENTED)
-            .map_err(|error| SolidError::Mesh(error.to_string()))?;
+        let flags = TriMeshFlags::ORIENTED | TriMeshFlags::CONNECTED_COMPONENTS;
+        let mesh =
+            TriMesh::with_flags(vertices, triangles, flags).map_err(|error| SolidError::Mesh(error.to_string()))?;
         Ok(Self { mesh, properties })
     }
 
@@ -100,6 +101,17 @@ impl Solid {
     /// Triangles of the surface, counter-clockwise seen from outside.
     pub fn triangles(&self) -> &[[u32; 3]] {
         self.mesh.indices()
+    }
+
+    /// Number of separate bodies that the surface bounds. The surface of a cavity does not count.
+    pub fn body_count(&self) -> usize {
+        let Some(parts) = self.mesh.connected_components() else { return 1 };
+        let volume = |range: &[usize]| {
+            let faces = parts.grouped_faces[range[0]..range[1]].iter();
+            let triangles: Vec<[u32; 3]> = faces.map(|face| self.triangles()[*face as usize]).collect();
+            volume_properties(self.vertices(), &triangles).volume
+        };
+        parts.ranges.windows(2).filter(|range| volume(range) > 0.0).count()
     }
 
     /// Centre [m] of a triangle that intersects or touches another triangle without a common vertex; `None` if no
@@ -257,6 +269,26 @@ pub(crate) mod tests {
         assert!((solid.signed_distance(DVec3::new(2.0, 2.0, 2.0)) - 3f64.sqrt()).abs() < 1e-12);
         let (nearest, distance) = solid.project(DVec3::new(-0.5, 0.25, 0.25));
         assert!((nearest - DVec3::new(0.0, 0.25, 0.25)).length() < 1e-12 && (distance - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_cavity_is_no_separate_body() {
+        let (mut vertices, mut triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
+        let mut add = |low: f64, high: f64, inside_out: bool| {
+            let first = vertices.len() as u32;
+            let (more, around) = cuboid(DVec3::splat(low), DVec3::splat(high));
+            vertices.extend(more);
+            triangles.extend(
+                around.iter().map(|t| t.map(|v| v + first)).map(
+                    |[a, b, c]| {
+                        if inside_out { [a, c, b] } else { [a, b, c] }
+                    },
+                ),
+            );
+            Solid::new(vertices.clone(), triangles.clone()).unwrap().body_count()
+        };
+        assert_eq!(add(0.25, 0.75, true), 1);
+        assert_eq!(add(2.0, 3.0, false), 2);
     }
 
     #[test]

@@ -181,6 +181,11 @@ impl Terrain {
 
     /// Level of the highest triangle at (x, y) [m]; `None` outside the surface.
     pub fn level(&self, x: f64, y: f64) -> Option<f64> {
+        self.highest(x, y).map(|(level, _)| level)
+    }
+
+    /// Level of the highest triangle at (x, y) [m], and whether this triangle faces up; `None` outside the surface.
+    pub fn highest(&self, x: f64, y: f64) -> Option<(f64, bool)> {
         let [low, high] = self.bounds();
         let column = Aabb::new(DVec3::new(x, y, low.z), DVec3::new(x, y, high.z));
         let height = |number: u32| match &self.elements[number as usize] {
@@ -188,11 +193,11 @@ impl Terrain {
                 let z = a.z - (normal.x * (x - a.x) + normal.y * (y - a.y)) / normal.z;
                 let side = |p: &DVec3, q: &DVec3| (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
                 let sides = [side(a, b), side(b, c), side(c, a)].map(|s| s * normal.z.signum());
-                sides.iter().all(|s| *s >= 0.0).then_some(z)
+                sides.iter().all(|s| *s >= 0.0).then_some((z, normal.z > 0.0))
             }
             _ => None,
         };
-        self.tree.intersect_aabb(&column).filter_map(height).reduce(f64::max)
+        self.tree.intersect_aabb(&column).filter_map(height).reduce(|a, b| if b.0 > a.0 { b } else { a })
     }
 }
 
@@ -303,6 +308,14 @@ pub(crate) mod tests {
         assert_eq!(roof.level(0.25, 1.3), None);
         let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
         assert_eq!(Terrain::new(vertices, triangles).unwrap().level(0.3, 0.4), Some(1.0));
+    }
+
+    #[test]
+    fn highest_tells_whether_the_surface_faces_up() {
+        let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
+        assert_eq!(Terrain::new(vertices.clone(), triangles.clone()).unwrap().highest(0.3, 0.4), Some((1.0, true)));
+        let inside_out = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+        assert_eq!(Terrain::new(vertices, inside_out).unwrap().highest(0.3, 0.4), Some((1.0, false)));
     }
 
     #[test]

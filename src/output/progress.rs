@@ -1,7 +1,7 @@
 //! Progress of a run on the terminal.
 
 use std::{
-    io::IsTerminal,
+    io::{IsTerminal, Write},
     time::{Duration, Instant},
 };
 
@@ -55,7 +55,7 @@ impl Progress {
                 bar.set_message(message);
             }
             None => {
-                eprintln!("{message}");
+                print_line(&message);
                 self.last_line = Instant::now();
             }
         }
@@ -63,7 +63,7 @@ impl Progress {
 
     /// Shows a warning, also in quiet mode.
     pub fn warn(&self, warning: &str) {
-        let show = || eprintln!("warning: {warning}");
+        let show = || print_line(&format!("warning: {warning}"));
         match &self.bar {
             Some(bar) => bar.suspend(show),
             None => show(),
@@ -81,6 +81,12 @@ impl Progress {
             bar.finish_and_clear();
         }
     }
+}
+
+/// Prints a line to the standard error. A run does not end because its progress cannot be shown, so a failure, for
+/// example on a full disk, is ignored.
+pub fn print_line(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
 /// Formats the simulated time and the duration of the run [s]; in milliseconds if the duration is shorter than 0.1 s.

@@ -79,8 +79,8 @@ pub struct Contact {
     pub rolling_spring: DVec3,
     /// Overlap [m].
     pub overlap: f64,
-    /// Overlap at which the contact force starts [m]; above 0 only for a contact that starts on a triangle surface
-    /// during a run. See [`Self::started`].
+    /// Overlap at which the contact force is zero [m]. It can be above 0 only on a triangle surface; see
+    /// [`Self::started`] and [`Self::continued_as`].
     pub initial_overlap: f64,
     /// Nearest point as in [`ContactPoint::core`] [m]; the next search starts there.
     pub core: DVec3,

@@ -15,7 +15,7 @@ const DEPTH: f64 = 0.5;
 /// Wave number [1/m].
 const K: f64 = PI / LENGTH;
 
-/// Kinematic viscosity [m2/s], large enough to dominate the dissipation by particle noise.
+/// Kinematic viscosity [m2/s]. It is so large that it dissipates much more energy than the particle noise.
 const NU: f64 = 0.02;
 
 /// Period and decay of a sloshing wave.

@@ -58,7 +58,7 @@ pub enum ShorewardEndFile {
     Wall {},
     /// An open boundary through which long waves leave the flume. The bed must end below the still water level.
     Radiating {},
-    /// A sponge layer in front of a wall, which damps the waves.
+    /// A wall with a sponge layer in front of it. The layer damps the waves.
     Sponge(SpongeFile),
 }
 

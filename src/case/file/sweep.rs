@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 /// A sweep: many runs of one case, in which the values of some keys vary.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepFile {
     /// Path of the JSON schema, for editors (`breakwater schema --sweep` prints it). The solver ignores it.
@@ -34,7 +34,7 @@ pub struct SweepFile {
 }
 
 /// Rule that combines the values of the keys that vary.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Combine {
     /// All combinations of all values.
@@ -45,7 +45,7 @@ pub enum Combine {
 }
 
 /// A key that varies, with its values: either `values`, or `from`, `to` and `count`.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VaryFile {
     /// Path of the key in the case file, for example `domain.dp_m` or `friction[1].coefficient`.

@@ -98,6 +98,7 @@ fn validate(file: &FractureFile, document: &Document, check: &mut Checker) -> Op
     setup.constraints = boundary::constraints(file, &mesh, check);
     setup.loads = loads::validate(file, &mesh, check);
     warn_of_coarse_mesh(&setup, &mesh, check);
+    warn_of_unused_strength(file, check);
     let mut kept = file.clone();
     kept.fracture.mesh = FractureCase::MESH.to_owned();
     let text = document.stored_text(file, &kept);
@@ -170,12 +171,37 @@ fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Ve
         }
     };
     match mesh::parse(&bytes, &path, file.fracture.scale) {
-        Ok(mesh) => Some((bytes, mesh)),
+        Ok(mesh) => validate_size(&mesh, file.fracture.scale, check).then_some((bytes, mesh)),
         Err(error) => {
             let advice = "docs/cases.md lists the requirements for a mesh";
             check.reject("fracture.mesh", shown, format!("a valid mesh ({error})"), advice);
             None
         }
+    }
+}
+
+/// Refuses a mesh that is longer than 100 m, and warns of one that is longer than 20 m: it is probably in millimetres.
+fn validate_size(mesh: &PreparedMesh, scale: f64, check: &mut Checker) -> bool {
+    let nodes = || mesh.mesh.nodes.iter().copied();
+    let size = (nodes().fold(DVec3::MIN, DVec3::max) - nodes().fold(DVec3::MAX, DVec3::min)).max_element();
+    let given = format!("a mesh of {} m with `fracture.scale` = {}", as_text(size), as_text(scale));
+    if size > 100.0 {
+        check.reject("fracture.mesh", given, "at most 100 m long", "for a mesh in millimetres, write `scale` 0.001");
+    } else if size > 20.0 {
+        check.warn(format!("fracture.mesh = {given}: for a mesh in millimetres, write `scale` 0.001"));
+    }
+    size <= 100.0
+}
+
+/// Warns if a material has a strength but no body can crack.
+fn warn_of_unused_strength(file: &FractureFile, check: &mut Checker) {
+    let unused = file.materials.iter().filter(|material| material.strength.is_some());
+    let cracks = |name: &str| file.bodies.iter().any(|body| body.material == name && body.cracks);
+    for material in unused.filter(|material| !cracks(&material.name)) {
+        check.warn(format!(
+            "materials: {:?} has a strength, but no body of this material can crack; write \"cracks\": true in its bodies",
+            material.name
+        ));
     }
 }
 

@@ -79,7 +79,7 @@ impl Document {
             Ok(object) => object.into_keys().collect(),
             // The text is valid JSON but not an object. Parsing it as a flume case reports this error.
             Err(error) if error.is_data() => Vec::new(),
-            Err(error) => return Err(syntax_error(&error, &name)),
+            Err(error) => return Err(syntax_error(without_mark(&text), &error, &name)),
         };
         Ok(Self { name, text, keys })
     }
@@ -107,7 +107,7 @@ impl Document {
     ///
     /// # Errors
     /// If a key is unknown or missing, or a value has the wrong type.
-    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, CaseError> {
+    pub fn parse<T: DeserializeOwned + Serialize>(&self) -> Result<T, CaseError> {
         parse(without_mark(&self.text), &self.name)
     }
 
@@ -120,7 +120,7 @@ impl Document {
     }
 
     /// Parses the file and validates it. Returns the validated case and the warnings, or all errors.
-    pub(in crate::case) fn validate<F: DeserializeOwned, C>(
+    pub(in crate::case) fn validate<F: DeserializeOwned + Serialize, C>(
         &self,
         validate: impl FnOnce(&F, &Self, &mut Checker) -> Option<C>,
     ) -> Result<(C, Vec<String>), CaseErrors> {

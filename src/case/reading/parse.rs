@@ -1,5 +1,6 @@
 //! Parses the JSON of an input file and checks its keys and types.
 
+use serde::Serialize;
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde_json::Value;
 
@@ -12,8 +13,78 @@ use crate::case::file::{
 /// Renamed top-level keys: old name, new name. Flume cases and dry tests may still use the old names.
 pub(super) const RENAMED_KEYS: [(&str, &str); 2] = [("fracture", "breakage"), ("dry", "dry_test")];
 
+/// Sections whose value is an object.
+const SECTIONS: [&str; 14] = [
+    "breakage",
+    "contact",
+    "domain",
+    "dry",
+    "dry_test",
+    "fluid",
+    "flume",
+    "fracture",
+    "numerics",
+    "output",
+    "stop",
+    "units",
+    "wave",
+    "wavemaker",
+];
+
 /// Parses valid JSON into a struct of the module `case::file`; `name` is the file name in messages.
-pub(super) fn parse<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, CaseError> {
+pub(super) fn parse<T: DeserializeOwned + Serialize>(text: &str, name: &str) -> Result<T, CaseError> {
+    // A number that is too large for `Value` is reported below, with its place.
+    let written: Value = serde_json::from_str(text).unwrap_or_default();
+    if written.is_array() {
+        return Err(list_error(name, "top level"));
+    }
+    let mut sections = written.as_object().into_iter().flatten();
+    if let Some((section, _)) = sections.find(|(key, value)| SECTIONS.contains(&key.as_str()) && value.is_array()) {
+        return Err(list_error(name, section));
+    }
+    let parsed = parse_values(text, name)?;
+    // serde also reads an object from a list of its values. This check refuses such lists.
+    match list_for_object(&written, &serde_json::to_value(&parsed).unwrap_or_default()) {
+        Some(path) => Err(list_error(name, &path)),
+        None => Ok(parsed),
+    }
+}
+
+/// Returns the path of a list in the written JSON that was read as an object; the path of the top level is empty.
+fn list_for_object(written: &Value, read: &Value) -> Option<String> {
+    match (written, read) {
+        (Value::Array(_), Value::Object(_)) => Some(String::new()),
+        (Value::Object(written), Value::Object(read)) => {
+            written.iter().find_map(|(key, value)| Some(join(key, &list_for_object(value, read.get(key)?)?)))
+        }
+        (Value::Array(written), Value::Array(read)) => {
+            let mut pairs = written.iter().zip(read).enumerate();
+            pairs.find_map(|(index, (a, b))| Some(join(&format!("[{index}]"), &list_for_object(a, b)?)))
+        }
+        _ => None,
+    }
+}
+
+/// Joins two parts of a JSON path.
+fn join(first: &str, rest: &str) -> String {
+    if rest.is_empty() || rest.starts_with('[') { format!("{first}{rest}") } else { format!("{first}.{rest}") }
+}
+
+fn list_error(name: &str, path: &str) -> CaseError {
+    let advice = match path {
+        "units" => "all units of a case have one kind; write its keys by name",
+        _ => "write each value with its key; `breakwater schema` explains every key",
+    };
+    CaseError::Invalid {
+        file: name.to_owned(),
+        path: path.to_owned(),
+        value: "a list [ ... ]".to_owned(),
+        allowed: "an object { ... }".to_owned(),
+        advice: advice.to_owned(),
+    }
+}
+
+fn parse_values<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, CaseError> {
     let mut reader = serde_json::Deserializer::from_str(text);
     serde_path_to_error::deserialize::<_, T>(&mut reader).map_err(|error| {
         let path = error.path().to_string();
@@ -32,7 +103,7 @@ fn value_error(text: &str, path: String, error: &serde_json::Error, name: &str) 
     let (problem, advice) = match without_position(error).as_str() {
         "number out of range" => ("number too large to be represented", "write a finite number"),
         // The text is nested more deeply than the parser allows.
-        _ if serde_json::from_str::<IgnoredAny>(text).is_err() => return syntax_error(error, name),
+        _ if serde_json::from_str::<IgnoredAny>(text).is_err() => return syntax_error(text, error, name),
         "expected value" => {
             ("not one of the allowed names", "write a name in quotes; `breakwater schema` lists the names")
         }
@@ -43,13 +114,32 @@ fn value_error(text: &str, path: String, error: &serde_json::Error, name: &str) 
 }
 
 /// Returns the error for a text that is not valid JSON.
-pub(super) fn syntax_error(error: &serde_json::Error, name: &str) -> CaseError {
-    CaseError::Syntax {
-        file: name.to_owned(),
-        line: error.line(),
-        column: error.column(),
-        problem: without_position(error),
-    }
+pub(super) fn syntax_error(text: &str, error: &serde_json::Error, name: &str) -> CaseError {
+    let (line, column) = (error.line(), error.column());
+    let problem = frequent_mistake(text, line, column).unwrap_or_else(|| without_position(error));
+    CaseError::Syntax { file: name.to_owned(), line, column, problem }
+}
+
+/// Returns a description of the mistake if it is a frequent one; `line` and `column` are those of the parser's error.
+fn frequent_mistake(text: &str, line: usize, column: usize) -> Option<String> {
+    let start: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let at = start + column.saturating_sub(1);
+    let (before, rest) = (text.get(..at)?, text.get(at..)?);
+    let found = rest.chars().next()?;
+    let before = before.trim_end();
+    let after_comma = before.strip_suffix(',');
+    let word: String = rest.chars().take_while(|c| !c.is_whitespace() && !",]}".contains(*c)).take(20).collect();
+    Some(match found {
+        '}' | ']' if after_comma.is_some() => format!("found `{found}` after a comma; remove the comma"),
+        '0'..='9' if after_comma.is_some_and(|number| number.ends_with(|c: char| c.is_ascii_digit())) => {
+            format!("found `{word}` after a comma; write a decimal point instead of a decimal comma")
+        }
+        '/' | '#' => format!("found `{found}`; comments are not allowed, use `assumptions` for notes"),
+        '+' => format!("found `{word}`; write positive numbers without a sign"),
+        '\'' => format!("found `{found}`; write texts and keys in double quotes"),
+        '.' | 'I' | 'N' | 'i' | 'n' => format!("found `{word}`; write a finite number such as 0.5"),
+        _ => return None,
+    })
 }
 
 /// Returns the parser's message without the position at its end, for example " at line 3 column 5".

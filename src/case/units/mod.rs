@@ -19,6 +19,8 @@ mod row;
 pub mod shape;
 mod stl;
 
+use glam::DVec3;
+
 use self::contact::Contact;
 use self::materials::Materials;
 pub use self::pose::UnitPose;
@@ -189,7 +191,24 @@ fn place(
         (None, Some(centres)) if !posed => centres::place(centres, file, shape, site, check),
         _ => poses::place(file, around.name, site, check)?,
     };
+    validate_above_terrain(&placements, site, check);
     Some(if in_layer { planar::lay(placements, site, check) } else { placements })
+}
+
+/// Refuses a unit whose centre is below the terrain: it would fall.
+fn validate_above_terrain(placements: &[UnitPose], site: &Site, check: &mut Checker) {
+    let Some(terrain) = &site.terrain else { return };
+    let level_above = |centre: DVec3| terrain.surface.level(centre.x, centre.y).filter(|level| *level > centre.z);
+    let below = placements.iter().enumerate().find_map(|(index, pose)| Some((index, level_above(pose.centre)?)));
+    if let Some((index, level)) = below {
+        let [x, y, z] = placements[index].centre.to_array().map(as_text);
+        check.reject(
+            "units",
+            format!("unit {} with its centre at ({x}, {y}, {z}) m", index + 1),
+            format!("above the terrain, which is at z = {} m there", as_text(level)),
+            "raise the unit or lower the terrain",
+        );
+    }
 }
 
 /// Refuses obstacles in a case with units. Warns of units that are small compared with the particle spacing.

@@ -9,7 +9,7 @@ use crate::geometry::armour_unit::LARGEST_ROUNDING;
 use crate::geometry::convex::polyhedron::Polyhedron;
 use crate::geometry::decomposition::{self, Decomposition};
 use crate::geometry::solid::Solid;
-use crate::geometry::stl;
+use crate::geometry::stl::{self, StlError};
 
 /// Largest allowed volume that convex parts and unit do not have in common, divided by the volume of the unit [-].
 const LARGEST_ERROR: f64 = 0.05;
@@ -75,19 +75,27 @@ pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mu
     let mut read = |path: &str, key: &str, name: String, check: &mut Checker| {
         let path: PathBuf = folder.join(path);
         let mut refuse = |reason: String| {
-            let advice =
-                "the surface must be closed, without holes, and its triangles counter-clockwise seen from outside";
+            let advice = "write one closed surface without holes, with triangles counter-clockwise seen from outside";
             check.reject(key, format!("{:?}", path.display().to_string()), reason, advice);
         };
         match std::fs::read(&path) {
             Ok(bytes) => match stl::parse(&bytes, &path, file.scale) {
                 Ok(solid) => {
+                    let bodies = solid.body_count();
+                    if bodies > 1 {
+                        refuse(format!("one body (the file has {bodies} separate closed surfaces)"));
+                        return None;
+                    }
                     if let Some(point) = solid.self_intersection() {
                         refuse(format!("a surface that does not intersect itself (it does near {point} m)"));
                         return None;
                     }
                     files.push((name, bytes));
                     Some(solid)
+                }
+                Err(StlError::Format { reason, .. }) => {
+                    refuse(format!("a complete STL file ({reason})"));
+                    None
                 }
                 Err(error) => {
                     refuse(format!("a closed surface ({error})"));

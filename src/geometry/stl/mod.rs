@@ -1,8 +1,10 @@
-//! STL surfaces: reads ASCII and binary files, writes binary files.
+//! STL surfaces: reads text and binary files, writes binary files.
+
+mod triangles;
 
 use std::collections::HashMap;
 use std::fs::{self, File};
-use std::io::{BufWriter, Cursor, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
@@ -18,7 +20,7 @@ pub enum StlError {
     #[error("{path}: {source}")]
     Io { path: PathBuf, source: std::io::Error },
     /// The file is incomplete or not an STL file.
-    #[error("{path} is not a readable STL file: {reason}")]
+    #[error("{path} is not a complete STL file: {reason}")]
     Format { path: PathBuf, reason: String },
     /// The surface does not bound a body.
     #[error("{path}: {source}")]
@@ -52,18 +54,14 @@ pub fn parse_terrain(bytes: &[u8], path: &Path, scale: f64) -> Result<Terrain, S
 type Facets = (Vec<DVec3>, Vec<[u32; 3]>);
 
 fn facets(bytes: &[u8], path: &Path, scale: f64) -> Result<Facets, StlError> {
-    let format = |reason: String| StlError::Format { path: path.to_owned(), reason };
-    let mut file = Cursor::new(bytes);
-    let facets = stl_io::create_stl_reader(&mut file).map_err(|e| format(e.to_string()))?;
+    let read = triangles::triangles(bytes).map_err(|reason| StlError::Format { path: path.to_owned(), reason })?;
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
-    let mut known: HashMap<[u32; 3], u32> = HashMap::new();
-    for (index, facet) in facets.enumerate() {
-        let facet = facet.map_err(|e| format(format!("triangle {index}: {e}")))?;
-        let corners = facet.vertices.map(|v| {
+    let mut known: HashMap<[u64; 3], u32> = HashMap::new();
+    for corners in read {
+        let corners = corners.map(|corner| {
             // Adding zero changes -0 to +0. Otherwise two equal coordinates could have different bits.
-            let [x, y, z] = v.0.map(|c| c + 0.0);
-            *known.entry([x.to_bits(), y.to_bits(), z.to_bits()]).or_insert_with(|| {
-                vertices.push(scale * DVec3::new(x.into(), y.into(), z.into()));
+            *known.entry((corner + 0.0).to_array().map(f64::to_bits)).or_insert_with(|| {
+                vertices.push(scale * corner);
                 (vertices.len() - 1) as u32
             })
         });

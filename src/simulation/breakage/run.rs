@@ -13,7 +13,7 @@ use super::model::Model;
 use super::selection::select;
 use super::{load_history, reenact};
 use crate::case::{BreakageSettings, FractureCase, RerunMethod};
-use crate::output::{Impacts, OutputError, driver::Control};
+use crate::output::{Impacts, OutputError, driver::Control, progress::print_line};
 use crate::simulation::breakage::results::{Breakage, Moved, Outcome};
 use crate::simulation::fracture::run::{run, world};
 use crate::simulation::fracture::summary::FractureSummary;
@@ -187,7 +187,7 @@ fn compute(
                 } {
                     let outcome = job.outcome(folder, threads, control);
                     if let (false, Ok(outcome)) = (control.quiet, &outcome) {
-                        eprintln!("  {}: {}", job.title(), outcome.in_words());
+                        print_line(&format!("  {}: {}", job.title(), outcome.in_words()));
                     }
                     if let Ok(mut slot) = slot.lock() {
                         *slot = Some(outcome);

@@ -1,7 +1,7 @@
 //! Single-precision SIMD lanes (one instruction computes all lanes), and the traits with which each physical term is
 //! written once, for scalars and for any number of lanes.
 //!
-//! [`InstructionSet::dispatch`] is the only function that selects code for the present processor.
+//! In the SPH code, only [`InstructionSet::dispatch`] selects code for the instruction set of the processor.
 
 mod portable;
 #[cfg(target_arch = "x86_64")]

@@ -1,7 +1,7 @@
 //! Motion of a wave paddle that generates regular waves.
 //!
-//! * Biesel & Suquet (1951), in the form of Dean & Dalrymple (1984), section 6.3: the paddle moves by
-//!   (S/2) f(z) sin(omega t) and generates small waves. S is the stroke, and the shape f is 1 at still water level.
+//! * Biesel & Suquet (1951), linear theory, in the form of Dean & Dalrymple (1984), section 6.3: the paddle moves by
+//!   (S/2) f(z) sin(omega t). S is the stroke, and the shape f is 1 at still water level.
 //! * Madsen (1971), "On the generation of long waves": a piston motion at twice the wave frequency generates a
 //!   second-order wave of permanent form. Without this motion, the piston also generates a slower free wave of twice
 //!   the frequency.
