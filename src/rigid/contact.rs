@@ -31,7 +31,7 @@ pub enum Feature {
 pub struct ContactKey {
     /// Number of the body from 0.
     pub body: u32,
-    /// Number of the part of this body, from 0. For a unit as partner, the number is encoded as in [`Feature::Unit`].
+    /// Number of the part of this body, from 0. If the partner is a unit, the value is encoded as in [`Feature::Unit`].
     pub part: u16,
     /// Contact partner.
     pub feature: Feature,
@@ -110,8 +110,9 @@ impl Contact {
 
     /// Creates a contact that has just started.
     ///
-    /// A part that moves along a triangle surface can reach the next ridge with an overlap, which would create energy.
-    /// Therefore the contact force starts at this overlap. An overlap at the start of a run is not subtracted.
+    /// A part that moves along a triangle surface can already overlap the next ridge when it reaches this ridge. A
+    /// contact force from this overlap would create energy. Therefore the contact force is zero at this overlap. An
+    /// overlap at the start of a run is not subtracted.
     pub fn started(point: &ContactPoint, substep: Substep) -> Self {
         let on_terrain = matches!(point.key.feature, Feature::Terrain { .. });
         let initial_overlap = if on_terrain && substep.dt > 0.0 { point.overlap } else { 0.0 };

@@ -2,10 +2,10 @@
 //!
 //! The state variable is the angular momentum L in world axes, so a body without torque conserves L exactly. The
 //! rotation q follows dq/dt = (1/2) omega q with omega = R I^-1 R^T L, with the rotation matrix R and the inertia
-//! tensor I. It is integrated by the classical fourth-order Runge-Kutta method. The integrator of the library rapier
-//! has an explicit gyroscopic term and conserves only the magnitude of L. For a free asymmetric body with inertia (1,
-//! 2, 3) at 10 rad/s and steps of 0.1 ms, the direction of L drifts by 1e-5 rad within a second (see the test). rapier
-//! therefore serves as a reference in the test only.
+//! tensor I. The classical fourth-order Runge-Kutta method integrates q. The integrator of the library rapier has an
+//! explicit gyroscopic term and conserves only the magnitude of L. For a free asymmetric body with inertia (1, 2, 3) at
+//! 10 rad/s and steps of 0.1 ms, the direction of L drifts by 1e-5 rad within a second (see the test). rapier therefore
+//! serves as a reference in the test only.
 
 use glam::{DMat3, DQuat, DVec3};
 

@@ -64,7 +64,7 @@ pub struct RigidWorld {
     pairs: Vec<PartPair>,
     /// Pairs of `pairs` whose parts can be in contact now.
     near: Vec<PartPair>,
-    /// Largest gap [m] of two parts that `pairs` includes; the gap when the list was built counts.
+    /// `pairs` includes all part pairs whose gap was at most this distance when the list was built [m].
     pub(super) search_distance: f64,
     /// Upper bound of the distance that the surface of each body has moved since `pairs` was built [m].
     pub(super) path: Vec<f64>,

@@ -1,11 +1,11 @@
-//! Compares the tip (front) of the water after a dam break with an exact solution and with a measurement. The set-up is
-//! that of Koshizuka & Oka (1996): a column of width L and height 2L, here with L = 1 m.
+//! Compares the tip (front) of the water after a dam break with an exact solution and with a measurement. The set-up
+//! follows Koshizuka & Oka (1996): a column of width L and height 2L, here with L = 1 m.
 //!
-//! The measured points, which Koshizuka & Oka show, are those of Martin & Moyce (1952) with a column 57 mm wide, scaled
-//! to L = 1 m. These points lag behind every exact solution: from the second point on, the tip of inviscid water
-//! without a gate, [`POTENTIAL_FLOW`], is 10 to 18 % (49 to 65 ms) ahead of the measured points. No single time lag
-//! fits both the first and the second point. The tests therefore compare the run with the exact solution, and with the
-//! measurement after one time lag for all points.
+//! Koshizuka & Oka show points that Martin & Moyce (1952) measured with a column 57 mm wide. The points are scaled to
+//! L = 1 m. These points lag behind every exact solution: from the second point on, the tip of inviscid water without a
+//! gate, [`POTENTIAL_FLOW`], is 10 to 18 % (49 to 65 ms) ahead of the measured points. No single time lag fits both the
+//! first and the second point. The tests therefore compare the run with the exact solution, and with the measurement
+//! after one time lag for all points.
 
 use std::{path::Path, sync::Arc};
 

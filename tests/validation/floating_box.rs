@@ -1,10 +1,10 @@
 //! A box floats freely in regular waves, as in the experiment of Ren, He, Dong & Wen (2015). It is 0.30 m long and
 //! 0.20 m high, with half the density of water. The water is 0.40 m deep; the waves have H = 0.10 m and T = 1.2 s.
 //!
-//! The test aligns the first full heave crests, because measurement and computation start at different times. It fits
-//! a + b t + C cos(omega t) + S sin(omega t) to the five periods after this crest. It compares amplitude and phase of
-//! heave and roll, and the drift of surge. A drifting box encounters fewer waves per second than a fixed box, so omega
-//! is the frequency that fits heave best.
+//! The test aligns measurement and computation at the first full heave crest, because they start at different times. It
+//! fits a + b t + C cos(omega t) + S sin(omega t) to the five periods after this crest. It compares amplitude and phase
+//! of heave and roll, and the drift of surge. A drifting box encounters fewer waves per second than a fixed box, so
+//! omega is the frequency that fits heave best.
 
 use std::{f64::consts::TAU, path::Path, sync::Arc};
 
@@ -150,7 +150,7 @@ fn wrap(degrees: f64) -> f64 {
 }
 
 /// Runs the case and compares it with each source of the measurement. Returns, for each source: amplitude ratio and
-/// phase difference [degrees] of heave, the same of roll, and the ratio of the surge drifts.
+/// phase difference [degrees] of heave, both values again for roll, and the ratio of the surge drifts.
 fn compare(dp: f64, part: Part) -> Vec<[f64; 5]> {
     let (motions, period) = fits(&computed(dp, part));
     let [surge, heave, roll] = motions;

@@ -196,7 +196,7 @@ fn dispersive_wave_on_the_beach_is_near_the_analytic_solution() {
 /// Returns the measured profiles (x, eta) at the given times from each source.
 ///
 /// The same tolerance applies to both sources. The points of the table are interpolated between published points and
-/// scatter like these. No point of the table is on the steep front of the high wave.
+/// scatter like the published points. No point of the table is on the steep front of the high wave.
 fn laboratory_profiles(name: &str, times: &[f64]) -> Vec<(&'static str, Vec<Vec<[f64; 2]>>)> {
     let rows = data::table(&format!("synolakis1987_profiles_{name}.csv"));
     let profile = |k: usize| {

@@ -57,7 +57,8 @@ fn a_rerun_impact_keeps_momentum_energy_and_impulse() {
     assert!((momentum - expected).length() < 1e-6 * expected.length(), "{momentum} {expected}");
     let (_, bodies) = start.step_with_body_energies().unwrap();
     let energy = 0.5 * 0.3 * before.velocity.length_squared() * 50f64.powi(4);
-    // Limit for the energy: 1e-6 plus the work of gravity, because the energy is computed half a time step later.
+    // Limit for the energy: 1e-6 plus the work of gravity, because the energy refers to a time half a time step after
+    // the initial velocities.
     let fallen = expected.z.abs() * 9.81 * start.dt;
     assert!((bodies[0].kinetic - energy).abs() < 1e-6 * energy + fallen, "{} {energy}", bodies[0].kinetic);
 

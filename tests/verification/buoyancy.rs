@@ -106,8 +106,8 @@ fn without_gap_pressure_the_water_presses_a_unit_down() {
     let mut case = tank_with_held_unit(LENGTH, 0.16, 0.01, DURATION);
     case["numerics"]["gap_pressure"] = json!(false);
     let held_down = on_bed_in(&case, 0.16, 0.01);
-    // The water presses the unit down with a force larger than its buoyancy; in a tank with closed sides, with 1.7
-    // times its buoyancy. The unit stands in the middle, so the horizontal force is small: 0.01 of the buoyancy.
+    // The water presses the unit down with a force larger than its buoyancy. In a tank with closed sides, this force is
+    // 1.7 times the buoyancy. The unit stands in the middle, so the horizontal force is small: 0.01 of the buoyancy.
     assert!(held_down.vertical < -2.0 && held_down.horizontal < 0.05, "{held_down:?}");
 }
 

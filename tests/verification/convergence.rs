@@ -42,7 +42,7 @@ fn density_diffusion_damps_waves_at_the_rate_of_theory() {
         println!("diffusion of k dp = {wave:.2}: {found:.4}, theory {theory:.4}, of long waves {long:.4}");
         // Limit 1e-5: the excess over rho0 is stored in single precision, with differences of 1 kg/m3.
         assert!((found / theory - 1.0).abs() < 1e-5, "{wave}");
-        // The rate, divided by that of long waves, is 1 - (h k)^2 / 15 + (h k)^4 / 371 from the moments of |G|. The
+        // The rate, divided by the rate of long waves, is 1 - (h k)^2 / 15 + (h k)^4 / 371 from the moments of |G|. The
         // limit adds 1e-3, because the lattice error is 4e-4.
         let series = 1.0 - 2.0 / 15.0 * long;
         assert!(long > 1.0 || (found / long - series).abs() < 0.015 * long * long + 1e-3, "{wave}");
@@ -75,8 +75,8 @@ fn operators_converge_with_second_order() {
             2.0 / 15.0 * (h * wave_number).powi(2)
         );
         // Limit 2e-5: pressures of 1000 Pa have a rounding error of 6e-8 in single precision, but differ by only 2 h k
-        // 1000 Pa within the kernel support (wave number k). The second term of the limit: the lattice error of a wave
-        // differs from that of a linear field by the share (h k)^2.
+        // 1000 Pa within the kernel support (wave number k). The second term of the limit: the lattice errors of a wave
+        // and of a linear field differ by the share (h k)^2.
         let allowed = 2e-5 + 2.0 * (h * wave_number).powi(2) * lattice_error;
         assert!((found[0] - (1.0 - smoothed - lattice_error)).abs() < allowed, "{cells}");
         assert!((found[1] - (1.0 - smoothed - lattice_error)).abs() < allowed, "{cells}");

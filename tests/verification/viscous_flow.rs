@@ -220,12 +220,12 @@ fn a_taylor_green_vortex_decays_at_the_rate_of_theory() {
     // Limit 8 % for the decay rate. The viscosity sum and the walls cause 1.4 %, which is the excess of the power with
     // settled particles. The strain of the vortex pushes particles together and sideways. Viscosity dissipates this
     // noise (4 %), and the pressure response to the noise takes 1 %. The total falls with dp to the power 0.8: over the
-    // first second and with Lo & Shao, it is 5.7 and 4.2 % with 20 and 30 particles per side. If the particles start on a lattice, the
-    // vortex decays 23 and 21 % too fast with 20 and 40 particles per side. The strain deforms the lattice, which
-    // collapses suddenly between 0.3 and 0.6 s. Meanwhile viscosity dissipates twice the theoretical power. Density
-    // diffusion of Antuono et al. (2010) or a velocity correction for the shifting (Lind et al. 2012) changes the decay
-    // error of the lattice start by at most 2 %. Three times the shifting, with the largest speed instead of the local
-    // speed, halves this error.
+    // first second with Lo & Shao, the total is 5.7 and 4.2 % with 20 and 30 particles per side. If the particles start
+    // on a lattice, the vortex decays 23 and 21 % too fast with 20 and 40 particles per side. The strain deforms the
+    // lattice, which collapses suddenly between 0.3 and 0.6 s. Meanwhile viscosity dissipates twice the theoretical
+    // power. Density diffusion of Antuono et al. (2010) or a velocity correction for the shifting (Lind et al. 2012)
+    // changes the decay error of the lattice start by at most 2 %. Three times the shifting, with the largest speed
+    // instead of the local speed, halves this error.
     assert!(excess.abs() < 0.08, "{excess}");
 }
 

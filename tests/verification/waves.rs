@@ -87,7 +87,8 @@ fn stroke(record: &FlumeRecord, x: f64) -> f64 {
     largest_displacement(&piston, 3)
 }
 
-/// Returns the largest displacement of a row [m]. Later, the wave reflected by the shore reverses the motion.
+/// Returns the largest displacement of a row [m]. The final displacement is smaller, because the wave that the shore
+/// reflects reverses the motion.
 fn largest_displacement(piston: &MlPiston, row: usize) -> f64 {
     (0..1500).map(|i| piston.displacement_m(row, 0.02 * f64::from(i))).fold(0.0, f64::max)
 }

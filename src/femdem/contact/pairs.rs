@@ -265,7 +265,7 @@ impl Pair {
     }
 
     /// Returns I_b, the initial overlap that does not count [m3]. With this I_b, the pair had the elastic energy of the
-    /// joint half a time step ago, when the joint broke. With s = sqrt I - sqrt I_b, this energy is the present energy
+    /// joint half a time step ago, when the joint broke. With s = sqrt I - sqrt I_b, this energy is the current energy
     /// p s^2 minus half the work of this time step against the contact forces. The contact forces are the share
     /// s / sqrt I of the forces of the whole overlap.
     fn find_initial_overlap(&mut self, found: Option<&Overlap>, moves: &[[DVec3; 4]; 2]) -> f64 {

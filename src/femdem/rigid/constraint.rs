@@ -7,8 +7,9 @@
 
 use glam::{DMat3, DVec3};
 
-/// A row is dropped if its part that is independent of earlier rows is shorter than this share of the row [-]. This
-/// value is far above rounding errors and far below the share of any constraint that has an effect.
+/// Smallest length of the part of a row that is independent of earlier rows, divided by the length of the row [-]. A
+/// row with a shorter independent part is dropped. This value is far above rounding errors and far below the share of
+/// any constraint that has an effect.
 const INDEPENDENT: f64 = 1e-6;
 /// Number of degrees of freedom of a body.
 const FREEDOMS: usize = 6;

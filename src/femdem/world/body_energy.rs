@@ -50,7 +50,8 @@ impl World {
     }
 
     /// Adds the kinetic energies at the start of a time step, after the nodes have moved. `before` are the nodal
-    /// velocities half a time step before this start; the present velocities are half a time step after it.
+    /// velocities half a time step before this start; the current nodal velocities refer to half a time step after this
+    /// start.
     pub(super) fn add_kinetic_energies(&self, energies: &mut [BodyEnergy], before: &[DVec3]) {
         for (node, before) in before.iter().enumerate().filter(|(node, _)| self.nodes.constraint[*node] != RIGID) {
             let energy = 0.5 * self.nodes.mass[node] * before.dot(self.nodes.velocity[node]);

@@ -28,7 +28,8 @@ pub const REACH: f64 = 50.0;
 
 /// Limit of the overlap of two tetrahedra [-] as in
 /// [`Contacts::deepest_overlap`](crate::femdem::contact::pairs::Contacts::deepest_overlap). At this limit, about half
-/// of the smaller tetrahedron is inside the other one, and the contact force can no longer separate the two reliably.
+/// of the smaller tetrahedron is inside the other one, and the contact force can no longer separate the two tetrahedra
+/// reliably.
 pub const DEPTH: f64 = 0.25;
 
 /// Nodes per task of the thread pool.

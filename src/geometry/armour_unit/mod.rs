@@ -237,8 +237,8 @@ fn check_length(length_m: f64) -> Result<f64, ArmourUnitError> {
     if length_m > 0.0 && length_m.is_finite() { Ok(length_m) } else { Err(ArmourUnitError::Length(length_m)) }
 }
 
-/// Rotation that places a body on the most stable face of its convex hull. The most stable face has the largest angle
-/// between the vertical and the line from its nearest edge to the centre of mass.
+/// Rotation that places a body on the most stable face of its convex hull. The stability of a face is the smallest
+/// angle between the vertical and a line from an edge of the face to the centre of mass.
 fn standing_rotation(parts: &[ConvexPart]) -> Result<DQuat, ArmourUnitError> {
     let corners: Vec<DVec3> = parts.iter().flat_map(|part| part.ends(DVec3::Z).collect::<Vec<_>>()).collect();
     let hull = Polyhedron::hull(&corners)?;

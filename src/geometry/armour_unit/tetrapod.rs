@@ -136,8 +136,8 @@ fn crease_vertex(point: DVec3, height_m: f64, vertices: &mut Vec<DVec3>, creases
 pub const LARGEST_ROUNDING: f64 = 0.07;
 
 /// Convex parts, one per leg. The core is the cone, shrunk by `rounding_m` [m] at side and tip; core plus ball then
-/// touches side and tip from inside. The core starts one rounding radius from the centre of the unit, which is nearer
-/// than all crease points (0.088 H along the axis).
+/// touches side and tip from inside. The core starts one rounding radius from the centre of the unit. This start is
+/// nearer to the centre than all crease points (0.088 H along the axis).
 pub fn parts(height_m: f64, rounding_m: f64) -> Vec<ConvexPart> {
     let (t, length) = (taper(), CENTRE_TO_TIP * height_m);
     // Moving the side of the cone inwards by R reduces its radius by R / cos(half-angle).

@@ -4,7 +4,7 @@
 //! | --- | --- | --- |
 //! | Hertz-Mindlin (default) | [`super::hertz_mindlin`] | spring with history: stores the tangential displacement |
 //! | linear | [`super::linear`], measured stiffness | spring with history |
-//! | `chrono4` | Hertz with R = 0.1 m for every contact | spring of one substep, no history; zero below 0.1 mm/s |
+//! | `chrono4` | Hertz with R = 0.1 m for every contact | spring of one substep; no force at speeds below 0.1 mm/s |
 //!
 //! The tangential force is limited to |F_t| <= mu F_n. If F_n would be negative, both forces are zero. At the sliding
 //! speed v_t, mu = mu_k + (mu_s - mu_k) exp(-(v_t / v_c)^2); mu_s is the coefficient at rest, mu_k during sliding.

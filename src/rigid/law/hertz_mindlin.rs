@@ -60,7 +60,7 @@ pub(super) fn damping_factor_of(e: f64, acceleration: impl Fn(f64, f64, f64) -> 
     if e >= 1.0 {
         return 0.0;
     }
-    // With beta = 4, the restitution is less than 0.02. If `e` is smaller still, beta is also 4.
+    // With beta = 4, the restitution is less than 0.02. For an even smaller `e`, the result is 4.
     let (mut low, mut high) = (0.0, 4.0);
     // 40 bisections resolve beta to 4e-12.
     for _ in 0..40 {

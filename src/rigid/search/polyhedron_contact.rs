@@ -2,9 +2,9 @@
 //!
 //! Two polyhedra with parallel faces touch over a contact patch, where a single pair of nearest points is arbitrary.
 //! The patch is a polygon. Each corner of the patch is a contact point: it is a corner of one body in front of a face
-//! of the other body, or a crossing of two edges. The distance of a body's corner is exact and changes smoothly. An
-//! edge is assumed to bend inwards near its ends, with the rounding radius as radius of curvature. Therefore the
-//! overlap of a crossing decreases smoothly near the end of an edge.
+//! of the other body, or a crossing of two edges. The distance of a corner from the other body is exact and changes
+//! smoothly. An edge is assumed to bend inwards near its ends, with the rounding radius as radius of curvature.
+//! Therefore the overlap of a crossing decreases smoothly near the end of an edge.
 
 use glam::DVec3;
 

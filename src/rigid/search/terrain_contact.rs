@@ -17,13 +17,14 @@ use crate::rigid::contact::Feature;
 const SAME_PLACE: f64 = 1e-12;
 
 /// Largest distance of a core behind a triangle that it touches, divided by the rounding radius [-]. In a substep, a
-/// unit moves much less. If a core lies further behind, the triangle is on the opposite side of a thin body.
+/// unit moves much less than this distance. If a core lies further behind, the triangle is on the opposite side of a
+/// thin body.
 const LARGEST_DEPTH_BEHIND: f64 = 0.25;
 
 /// If the cosine of the angle between the normals of two triangles is above this value [-] (angle below 0.2 rad), an
-/// end touches only the nearer triangle. In a steeper valley, an end that touches one triangle still has a gap of 0.02
-/// rounding radii or more to the other triangle when its foot point enters this triangle. If the second contact starts
-/// with an overlap, this overlap is subtracted.
+/// end touches only the nearer triangle. In a steeper valley, an end that touches one triangle approaches the other
+/// triangle. When its foot point enters the other triangle, the gap to that triangle is still at least 0.02 rounding
+/// radii. If the second contact starts with an overlap, this overlap is subtracted.
 const VALLEY: f64 = 0.98;
 
 /// Fraction of a ridge at each end where the corner counts instead of the ridge [-]; the resolution of the bisection.

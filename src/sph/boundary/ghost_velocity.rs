@@ -86,7 +86,8 @@ fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVe
     let (mean, trust) = ([1.0 / occupied, 0.0, 0.0, 0.0], sums.trust(to_surface));
     let fitted = (trust > 0.0).then(|| sums.weights()).flatten().unwrap_or(mean);
     let kernel = &parameters.kernel;
-    // Constant factors of W and of g r_j with g = -G h^2. The sum uses r_j in metres; g r_j / h has the factor of -G h.
+    // Constant factors of W and of g = -G h^2. The sum uses r_j in metres instead of units of h, so the factor of g is
+    // divided by h.
     let (w, g) = (f64::from(kernel.scale()), -f64::from(kernel.gradient_scale()) * kernel.h);
     std::array::from_fn(|k| {
         let weight = mean[k] + trust * (fitted[k] - mean[k]);

@@ -41,18 +41,19 @@ pub(in crate::sph) const MIN_DETERMINANT: f64 = 0.01;
 /// 0.2 and 0.4, the thin tip of a dam break on a dry bed was still driven apart (case with three cubes, dp = 0.03 m).
 pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 
-/// Spread of the water around the node along the wall normal, sum g V r_n^2 / sum W V [h^2]. Here r_n
-/// is the normal distance of a particle from the node. g is not gravity but -h^2 G, with the factor G of the kernel
-/// gradient grad_a W_ab = G r_ab. From the first to the second value, the trust in the fitted
-/// gradient increases from 0 to 1. For nodes of the first layer of boundary particles, the spread is 0.2 to 0.3 for two
-/// layers of water particles, 0.5 to 0.65 for three layers and 0.74 for deep water. The values are calibrated with
-/// still water on a beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
+/// Spread of the water around the node along the wall normal, sum g V r_n^2 / sum W V [h^2]. Here r_n is the distance
+/// of a particle from the node along the wall normal. g is not gravity but -h^2 G, with the factor G of the kernel
+/// gradient grad_a W_ab = G r_ab. From the first to the second value, the trust in the fitted gradient increases from 0
+/// to 1. For nodes of the first layer of boundary particles, the spread is 0.2 to 0.3 for two layers of water
+/// particles, 0.5 to 0.65 for three layers and 0.74 for deep water. The values are calibrated with still water on a
+/// beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
 pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 
 /// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
 pub(super) const MIN_CHUNK: usize = 1024;
 
-/// A node is dry if its sum of W V is below this value [-]. One particle at the distance dp contributes more.
+/// A node is dry if its sum of W V is below this value [-]. One particle at the distance dp from the node contributes
+/// more than this value.
 pub(in crate::sph) const DRY_LIMIT: f64 = 0.01;
 
 /// All ghost nodes, sorted into bins, with their neighbour lists and sums.
@@ -210,7 +211,7 @@ impl NodeSums {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
-        // A wall exerts no suction: air enters between the wall and water that separates from it.
+        // A wall exerts no suction: air enters between the wall and water that separates from the wall.
         rho0 + excess.max(0.0)
     }
 

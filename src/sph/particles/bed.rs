@@ -11,8 +11,8 @@ use glam::{DVec2, DVec3};
 
 use super::boundary::BoundaryParticle;
 
-/// Tolerance for rounding errors [-]: of the distance from the outline, relative to the depth behind the outline.
-/// Pieces that are shorter than this value times dp are left out.
+/// Tolerance for rounding errors of the distance from the outline, divided by the depth behind the outline [-]. Pieces
+/// that are shorter than this value times dp are left out.
 const ROUNDING: f64 = 1e-6;
 
 /// Spacing of the points at which the distance from a parallel to the outline is checked [dp].
@@ -60,7 +60,7 @@ impl Outline {
     }
 
     /// Returns the unit normal, directed into the water, at the outline point nearest to `point`. Returns `None` if
-    /// `point` is in the water and at least `max_distance` [m] from the outline.
+    /// `point` is in the water and `max_distance` [m] or more from the outline.
     pub fn normal_within(&self, point: DVec2, max_distance: f64) -> Option<DVec2> {
         let is_far = |segment: &[DVec2]| {
             let normal = left_normal(segment);

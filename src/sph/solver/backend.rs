@@ -106,7 +106,7 @@ pub trait Backend: Send {
     /// Sorts all particles into bins, and the arrays of `water` into the order of the bins.
     fn sort(&mut self, water: &mut Water, boundary: &Boundary);
 
-    /// Builds the neighbour lists for the present time step.
+    /// Builds the neighbour lists for the current time step.
     fn build_neighbour_lists(&mut self, water: &Water, boundary: &Boundary);
 
     /// Computes the densities of the boundary particles from their ghost nodes.

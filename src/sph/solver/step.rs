@@ -130,7 +130,8 @@ impl Solver {
         std::mem::swap(water, &mut self.sorted);
     }
 
-    /// Returns the kernel support plus the distance that two particles can approach each other in half a time step [m].
+    /// Returns the kernel support plus the distance by which two particles can approach each other in half a time step
+    /// [m].
     fn reach(&self, water: &Water, boundary: &Boundary) -> f64 {
         let largest_speed = |v: &[DVec3]| {
             let squares = v.par_iter().with_min_len(MIN_CHUNK).map(|v| v.length_squared());
@@ -208,7 +209,7 @@ impl Solver {
         &self.water.rates
     }
 
-    /// Computes the rates of the water for the present records, but with the given viscosity and diffusion.
+    /// Computes the rates of the water for the current records, but with the given viscosity and diffusion.
     pub(super) fn rates_with(&self, viscosity: Viscosity, diffusion: Diffusion) -> Vec<Rate> {
         let pairs = self.pairs.with_parameters(Parameters { viscosity, diffusion, ..self.parameters });
         let mut rates = vec![Rate::default(); self.water.rates.len()];

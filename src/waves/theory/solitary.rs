@@ -82,7 +82,8 @@ impl SolitaryWave {
     }
 
     /// Phase theta at the piston, from -3.8 to 3.8 over the stroke. Newton's method solves
-    /// theta + (H/d) tanh theta = k c (t - T/2). (theta reaches 3.8 only to 1e-4, because tanh 3.8 = 0.999.)
+    /// theta + (H/d) tanh theta = k c (t - T/2). The end values differ from +-3.8 by about 1e-4, because tanh 3.8 is
+    /// 0.999 and not 1.
     fn phase(&self, t: f64) -> f64 {
         let e = self.height_m / self.depth_m;
         let right = self.outskirt_per_m() * self.celerity_m_s() * (t - 0.5 * self.duration_s());

@@ -74,7 +74,7 @@ fn energy_balance_of_a_shattering_block_closes_better_with_shorter_time_steps() 
             100.0 * long.lost[1]
         );
         // Target: residual below 1 % of the energy input. With a quarter of the time step, the residual is 1/16 as
-        // large; with friction on rotating fragments, it is only 1/4 as large.
+        // large; with friction on rotating fragments, the residual falls only to 1/4.
         assert!(long.residual < 0.01 && short.residual < 0.5 * long.residual && short.residual < 1e-3);
         assert!(long.failed > 20 && long.lost[0] > 0.02);
     }

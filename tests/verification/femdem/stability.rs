@@ -36,7 +36,8 @@ fn stable_time_step_is_below_but_near_the_limit_from_the_largest_eigenvalue() {
         let exact = 2.0 / largest_frequency_squared(&setup).sqrt();
         let used = World::new(setup, 1.0).dt;
         println!("{name}: time step {used:.3e} s, limit by the eigenvalue {exact:.3e} s, ratio {:.2}", used / exact);
-        // The time step never exceeds the limit from the eigenvalue; 0.6 is the reached ratio of both, rounded down.
+        // The time step never exceeds the limit from the eigenvalue; 0.6 is the reached ratio of time step and limit,
+        // rounded down.
         assert!(used <= exact * 1.001 && used > 0.6 * exact);
     }
 }

@@ -219,13 +219,13 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
     [peak, stiffness]
 }
 
-/// Largest load of this beam [N], computed with a fictitious crack of the same softening in plane stress
+/// Largest load of the beam in these tests [N], computed with a fictitious crack of the same softening in plane stress
 /// (tools/fictitious-crack/beam). Guo's results are 298.8 N with elements of 2.5 mm and 279.3 N with 5 mm.
 const BY_FICTITIOUS_CRACK: f64 = 308.1;
 
 /// Largest load reached with cells of 10 mm and joints of the penalty p_0 = 20 E: 338.8 N, 10 % above the load of the
 /// fictitious crack. At half the loading speed, the loads are 331 and 328 N on cells of 10 and 5 mm respectively. With
-/// p_0 = 50 E and cells of 10 mm, they are 339.8 N, and 334.5 N at half the loading speed.
+/// p_0 = 50 E and cells of 10 mm, the load is 339.8 N, and 334.5 N at half the loading speed.
 #[test]
 fn a_beam_breaks_at_the_load_of_a_fictitious_crack() {
     let [peak, _] = bend_beam(4, 20.0, false, 0.05);

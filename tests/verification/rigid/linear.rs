@@ -31,7 +31,7 @@ fn restitution_equals_the_given_coefficient() {
         let [out, _] = impact(e, 1e5);
         println!("restitution {e}: found {out:.5}");
         // Limit 0.005 for the speed ratio: the dashpot force starts with a jump. This jump causes an error of first
-        // order in the time step, which is an eightieth of a period.
+        // order in the time step, which is at most an eightieth of a period.
         assert!((out - e).abs() < 0.005);
     }
 }
@@ -43,7 +43,7 @@ fn an_elastic_impact_lasts_half_a_period() {
         let [_, time] = impact(1.0, stiffness);
         let expected = PI * (0.5 * mass / stiffness).sqrt();
         println!("k = {stiffness:e}: duration {:.2} us, expected {:.2} us", time * 1e6, expected * 1e6);
-        // Limit 3 %: start and end of the contact are known to one substep, 1/160 of the period.
+        // Limit 3 %: start and end of the contact are known to one substep, which is less than 1/160 of the period.
         assert!((time / expected - 1.0).abs() < 0.03);
     }
 }

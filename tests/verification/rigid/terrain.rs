@@ -54,8 +54,8 @@ fn a_tetrapod_slides_over_a_terrain_edge_like_over_exact_planes() {
         let distance = a.position.distance(b.position);
         println!("{:.3} s: x = {:.5} m, {distance:.1e} m apart", worlds[0].time(), a.position.x);
         // On the crest the motions on both surfaces agree to rounding. Then the legs touch the lee edge while they
-        // press into the crest. For contacts with triangles, overlap counts from the first touch, which changes the
-        // rolling by up to a millimetre.
+        // press into the crest. For contacts with triangles, only overlap beyond the overlap at the first touch counts.
+        // This rule changes the rolling by up to a millimetre.
         assert!(distance < if worlds[0].time() < 0.18 { 1e-12 } else { 1e-3 });
     }
     assert!(worlds[0].states()[0].position.x > 0.25);
@@ -78,8 +78,8 @@ fn a_ball_oscillates_in_a_terrain_trough_without_loss() {
     })
     .unwrap();
     let before = total_energy(&world);
-    // Without friction the ball does not rotate, so it moves like a pendulum. Its length is the radius of the trough
-    // minus the radius of the ball. The finite angle lengthens the period by the share angle^2 / 16.
+    // Without friction the ball does not rotate, so it moves like a pendulum. The length of this pendulum is the radius
+    // of the trough minus the radius of the ball. The finite angle lengthens the period by the share angle^2 / 16.
     let period = std::f64::consts::TAU * (pendulum_length / 9.81).sqrt() * (1.0 + angle * angle / 16.0);
     let (mut crossings, mut last) = (Vec::new(), start.x);
     while world.time() < 3.3 * period {

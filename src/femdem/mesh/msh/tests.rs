@@ -163,7 +163,8 @@ fn unexpected_words_are_reported_with_line_and_section() {
     // The stated number of nodes is one too high, so the reader reads a coordinate as a tag.
     let message = error_with("3 1 0 12 \n", "3 1 0 13 \n");
     assert!(message.contains("section $Nodes: found \"0.0\", expected a count or a tag"), "{message}");
-    // The stated number of nodes is one too low, so the reader reads the last tag as a coordinate. Numbers remain.
+    // The stated number of nodes is one too low, so the reader reads the last tag as a coordinate. Numbers then remain
+    // before the end of the section.
     let message = error_with("3 1 0 12 \n", "3 1 0 11 \n");
     assert!(message.contains("section $Nodes: ") && message.contains("expected the end of the section"), "{message}");
     let message = error_with("3 1 4 12 \n", "3 1 4 99999999999999999 \n");
