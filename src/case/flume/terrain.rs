@@ -74,8 +74,8 @@ pub fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker) -> Opt
 
 /// Number of sample points along each side of the area in which terrain and domain overlap.
 const SAMPLES: u32 = 40;
-/// Largest allowed length of the surface, divided by the length of the domain [-]. A surface in millimetres that is read
-/// in metres is a thousand times too long.
+/// Largest allowed length of the surface, divided by the length of the domain [-]. A surface in millimetres that is
+/// read in metres is a thousand times too long.
 const LONGEST: f64 = 200.0;
 /// Smallest allowed length of the surface, divided by the length of the domain [-].
 const SHORTEST: f64 = 5e-3;

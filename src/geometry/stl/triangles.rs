@@ -1,8 +1,8 @@
 //! Reads the triangles of an STL file, text or binary.
 //!
-//! A text file contains any number of solids; all of them are read. Keywords may be in upper or lower case. Indents, line
-//! ends and the names of the solids do not matter. A file with anything that is not understood is refused, so no triangle
-//! is left out without a message.
+//! A text file contains any number of solids; all of them are read. Keywords may be in upper or lower case. Indents,
+//! line ends and the names of the solids do not matter. A file with anything that is not understood is refused, so no
+//! triangle is left out without a message.
 
 use glam::DVec3;
 
