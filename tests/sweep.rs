@@ -158,7 +158,7 @@ fn a_base_case_that_is_not_a_json_object_is_refused() {
     let ended = breakwater(&["check", sweep.to_str().unwrap()]);
     let message = String::from_utf8_lossy(&ended.stderr);
     assert_eq!(ended.status.code(), Some(2), "{message}");
-    assert!(message.contains("tank.json: top level (line 1): wrong type: sequence; write an object"), "{message}");
+    assert!(message.contains("tank.json: top level = a list [ ... ]: must be an object"), "{message}");
 }
 
 #[test]
