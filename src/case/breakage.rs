@@ -103,7 +103,12 @@ pub(super) fn validate(
     );
     if let Some(cores) = file.cores.filter(|cores| !(1..=MOST_CORES).contains(cores)) {
         let allowed = format!("between 1 and {MOST_CORES}");
-        check.reject("breakage.cores", cores, allowed, "leave it out for one impact per thread");
+        check.reject(
+            "breakage.cores",
+            cores,
+            allowed,
+            "leave it out to compute as many impacts at the same time as there are cores",
+        );
     }
     if file.select.worst == Some(0) {
         check.reject("breakage.select.worst", 0, "at least 1", "leave out `breakage` to skip the analysis");

@@ -91,7 +91,8 @@ fn drag_share(scheme: Scheme, height: f64, dp: f64) -> f64 {
 #[test]
 fn drag_over_the_mound_needs_free_slip() {
     let [no_slip, free_slip] = [NO_SLIP, FREE_SLIP].map(|scheme| drag_share(scheme, 0.045, 0.016));
-    // Reached drag shares: 0.59 with no slip, 0.88 with free slip. The drag on a unit is known to 10 %, so a run that
+    // Reached drag shares: 0.59 with no slip, 0.88 with free slip. The limit for free slip is the reached value minus
+    // 0.03, the difference between particle spacings of 14 and 16 mm. The drag on a unit is known to 10 %, so a run that
     // loses 40 % of the drag is not useful.
     assert!(free_slip > 0.85 && free_slip < 1.03 && no_slip < 0.7);
 }

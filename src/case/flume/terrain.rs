@@ -72,12 +72,14 @@ pub fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker) -> Opt
     Some(SiteTerrain { surface: Arc::new(surface), content: Arc::new(content), scale: file.scale })
 }
 
-/// Number of sample points along each side of the area in which terrain and domain overlap.
+/// Number of sample points along each side of the area in which terrain and domain overlap. A terrain that covers less
+/// than about a fortieth of each side may be missed.
 const SAMPLES: u32 = 40;
 /// Largest allowed length of the surface, divided by the length of the domain [-]. A surface in millimetres that is
 /// read in metres is a thousand times too long.
 const LONGEST: f64 = 200.0;
-/// Smallest allowed length of the surface, divided by the length of the domain [-].
+/// Smallest allowed length of the surface, divided by the length of the domain [-]. The smallest useful surface is a
+/// rock of a few centimetres in a domain of some metres. A surface in metres that is read in millimetres is smaller.
 const SHORTEST: f64 = 5e-3;
 
 /// Checks that the surface has a plausible size, lies in the domain and faces up. The domain has the length x\[0\] to

@@ -181,6 +181,7 @@ fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Ve
 }
 
 /// Refuses a mesh that is longer than 100 m, and warns of one that is longer than 20 m: it is probably in millimetres.
+/// Prototype units are up to 10 m high, and model units in millimetres are more than 20 mm high.
 fn validate_size(mesh: &PreparedMesh, scale: f64, check: &mut Checker) -> bool {
     let nodes = || mesh.mesh.nodes.iter().copied();
     let size = (nodes().fold(DVec3::MIN, DVec3::max) - nodes().fold(DVec3::MAX, DVec3::min)).max_element();

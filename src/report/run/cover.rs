@@ -49,7 +49,7 @@ impl Cover {
     }
 }
 
-/// Returns true if a point is in a triangle whose corners are in clockwise or counter-clockwise order.
+/// Returns true if a point is in a triangle or on its edge. The order of the corners does not matter.
 fn contains([a, b, c]: [[f64; 2]; 3], p: [f64; 2]) -> bool {
     let side =
         |from: [f64; 2], to: [f64; 2]| (to[0] - from[0]) * (p[1] - from[1]) - (to[1] - from[1]) * (p[0] - from[0]);

@@ -98,8 +98,9 @@ fn a_heap_of_cubes_gains_no_energy() {
     println!(
         "heap of cubes: rise {highest:.1e} J, dissipated {dissipated:.3} J, residual {residual:+.3} J: {energy:?}"
     );
-    // Limit 1e-3 J for a rise of the mechanical energy: 0.01 % of the potential energy lost in the fall.
-    assert!(highest < 1e-3);
+    // Limit for a rise of the mechanical energy within 0.01 s: 1e-6 of the 20 J that the cubes dissipate, as in the
+    // other tests of heaps. Reached: 6e-10 J.
+    assert!(highest < 1e-6 * dissipated);
     // The energy balance itself has an error of 1.3 % of the dissipation, because contacts between boxes start and end
     // with some overlap. The cubes have stopped: the kinetic energy is below a thousandth of the dissipation.
     assert!(energy.kinetic < 1e-3 * dissipated);
