@@ -123,7 +123,10 @@ fn starting_at_an_unsuitable_checkpoint_is_refused() {
     let mut deeper = surge(0.1, 0.4);
     deeper["flume"]["still_water_level_m"] = json!(0.31);
     let deeper = write(folder.path(), "deeper.json", &deeper);
-    assert_refused(&run(&deeper, &at("deeper"), Some(&at("moved"))), "the cases differ in flume, stop; only title,");
+    assert_refused(
+        &run(&deeper, &at("deeper"), Some(&at("moved"))),
+        "the cases differ in flume.still_water_level_m, stop.duration_s; only title,",
+    );
     let dry = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/contact/tilt-tetrapod.json");
     assert_refused(&run(&dry, &at("dry"), Some(&at("moved"))), "only flume cases can begin at the checkpoint");
     assert!(!at("rough").exists() && !at("deeper").exists() && !at("dry").exists());
@@ -135,7 +138,7 @@ fn a_common_start_is_refused_if_runs_differ_before_it() {
     let friction = json!([{ "key": "friction[0].coefficient", "values": [0.1, 0.5] }]);
     let size = json!([{ "key": "domain.dp_m", "values": [0.025, 0.024] }]);
     let refused_sweeps = [
-        (&size, 0.06, "common_start_s: the cases differ in domain;"),
+        (&size, 0.06, "common_start_s: the cases differ in domain.dp_m;"),
         (&friction, 0.25, "common_start_s = 0.25: must be above 0 and below stop.duration_s, 0.25"),
         (&friction, 0.0, "common_start_s = 0: must be"),
     ];

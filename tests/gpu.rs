@@ -9,7 +9,7 @@ use std::{path::Path, sync::Arc};
 
 use breakwater::case::Case;
 use breakwater::simulation::flume::Simulation;
-use breakwater::simulation::flume::outputs::checkpoint::{self, Checkpoint};
+use breakwater::simulation::flume::outputs::checkpoint::Checkpoint;
 use breakwater::simulation::flume::outputs::recorder_state::RecorderState;
 use breakwater::sph::device::{Device, DeviceChoice};
 use breakwater::sph::solver::backend::Surfaces;
@@ -175,7 +175,8 @@ fn a_checkpoint_resumes_with_the_same_bits_and_on_the_other_device() {
     steps(&mut uninterrupted, 20);
     uninterrupted.begin_step().unwrap();
     uninterrupted.fetch().unwrap();
-    Checkpoint::of(&uninterrupted, &RecorderState::default()).write(folder.path(), Checkpoint::FILE).unwrap();
+    let outputs = RecorderState::new(&case.output);
+    Checkpoint::of(&uninterrupted, &outputs).write(folder.path(), Checkpoint::FILE).unwrap();
     // A run reloads its state after writing a checkpoint.
     uninterrupted.load().unwrap();
     let end = |mut simulation: Simulation| {
@@ -184,8 +185,9 @@ fn a_checkpoint_resumes_with_the_same_bits_and_on_the_other_device() {
         simulation
     };
     let resumed = |device: &Device| {
-        let mut simulation = Simulation::on(device, case.clone()).unwrap();
-        checkpoint::read(&mut simulation, folder.path()).unwrap();
+        let checkpoint = Checkpoint::read(folder.path(), &case.identity).unwrap();
+        let mut simulation = checkpoint.set_up(device, case.clone()).unwrap();
+        checkpoint.restore(&mut simulation, folder.path()).unwrap();
         simulation.load().unwrap();
         simulation
     };

@@ -12,6 +12,7 @@ use super::reading::check::{Checker, at_least, more_than};
 use super::reading::document::Document;
 use super::reading::error::CaseErrors;
 use super::reading::hash::fingerprint;
+use super::reading::identity::CaseIdentity;
 use super::units::contact::{self, Contact};
 use super::units::materials::{self, Material, Materials};
 use super::units::{self, Surroundings, Units};
@@ -52,6 +53,8 @@ pub struct DryTestCase {
     pub name: String,
     /// Fingerprint of the case: 32 hexadecimal digits.
     pub hash: String,
+    /// Identity of the case in checkpoints.
+    pub identity: CaseIdentity,
     /// Text of the case file that the run writes into its folder.
     pub text: String,
     /// Kind of dry test.
@@ -111,13 +114,15 @@ fn validate(file: &DryFile, document: &Document, check: &mut Checker) -> Option<
     for pose in &mut units.placements {
         pose.centre += DVec3::Z * lift;
     }
+    let text = document.stored_text(file, &kept);
     Some(DryTestCase {
         title: file.title.clone(),
         assumptions: file.assumptions.clone(),
         warnings: Vec::new(),
         name: name.clone(),
         hash: fingerprint(&DryFile { schema: None, ..kept.clone() }, &read),
-        text: document.stored_text(file, &kept),
+        identity: CaseIdentity::new(&kept, &read, &text),
+        text,
         test,
         site,
         gravity: file.gravity_m_s2,

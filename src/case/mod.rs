@@ -53,6 +53,7 @@ pub use output::gauges::{Gauge, Motion, Quantity};
 pub use output::stop::{AtRest, Stop};
 pub use reading::document::{Document, InputKind};
 pub use reading::error::{CaseError, CaseErrors};
+pub use reading::identity::{CaseIdentity, difference};
 pub use reading::schema::{
     dry_schema_text, fracture_schema_text, reference_schema_text, schema_text, sweep_schema_text,
 };

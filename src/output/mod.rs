@@ -22,6 +22,7 @@ mod execution;
 mod flume_tables;
 mod impacts;
 pub mod progress;
+mod schedule;
 mod series;
 mod size;
 pub(crate) mod state_file;
@@ -36,7 +37,8 @@ pub use error::OutputError;
 pub use execution::Execution;
 pub use flume_tables::{write_flume_gauges, write_flume_piston};
 pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePoint};
-pub use series::{CsvSeries, is_due};
+pub use schedule::Schedule;
+pub use series::CsvSeries;
 pub use size::OutputSize;
 pub use summary::{
     BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, Stopped, Summary, TimeStepSummary,

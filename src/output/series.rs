@@ -123,13 +123,6 @@ fn push_number(text: &mut String, value: f64) {
     };
 }
 
-/// Returns true if an output with this interval [s] is due at `time` [s]. `count` is the number of times that the
-/// output was written before. An output without an interval is never due.
-pub fn is_due(count: u64, interval: Option<f64>, time: f64) -> bool {
-    // The tolerance covers rounding errors of `time`.
-    interval.is_some_and(|interval| time >= count as f64 * interval - 1e-12)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::Table;

@@ -7,12 +7,9 @@ use thiserror::Error;
 
 use super::key::{get, set, short};
 pub use crate::case::file::Combine;
-use crate::{
-    case::{
-        Case, CaseError, CaseErrors, Document, InputKind,
-        file::{SweepFile, VaryFile},
-    },
-    simulation::flume::branch::difference,
+use crate::case::{
+    Case, CaseError, CaseErrors, Document, InputKind, difference,
+    file::{SweepFile, VaryFile},
 };
 
 /// Largest number of runs in one sweep.
@@ -169,7 +166,7 @@ impl Sweep {
 fn start(members: &[Member], until: f64, duration: f64) -> Result<Member, String> {
     let first = &members[0];
     if let Some(other) = members.iter().find(|other| other.start_hash != first.start_hash) {
-        return Err(format!("common_start_s: {}", difference(&first.text, &other.text)));
+        return Err(format!("common_start_s: {}", difference(&first.text, &other.text, &Case::KEYS_FREE_AT_START)));
     }
     if !(until > 0.0 && until < duration) {
         return Err(format!("common_start_s = {until}: must be above 0 and below stop.duration_s, {duration}"));

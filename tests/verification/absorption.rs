@@ -41,7 +41,7 @@ fn crests(dp: f64, height: f64, absorbs: bool) -> [f64; 2] {
     let mut crests = [0.0_f64; 2];
     run_until(&mut tank, rereflected + 0.2 * LENGTH / celerity, |now| {
         if now.steps.is_multiple_of(10) && (now.time < until || now.time > from) {
-            let level = now.sampler().unwrap().surface(DVec2::new(0.5 * LENGTH, 5.0 * dp), 0.0, 0.6).unwrap() - DEPTH;
+            let level = now.sampler().unwrap().surface(DVec2::new(0.5 * LENGTH, 5.0 * dp), 0.0).unwrap() - DEPTH;
             let crest = &mut crests[usize::from(now.time > until)];
             *crest = crest.max(level);
         }

@@ -82,7 +82,7 @@ fn deviations(height: f64, dp: f64, slip: &str) -> [f64; 2] {
         for (k, distance) in DISTANCES.iter().enumerate() {
             let x = PISTON_X + distance;
             // The stroke of the piston is 0.76 m, so the piston moves past the nearest gauge, but only after the crest.
-            let level = now.sampler().unwrap().surface(DVec2::new(x, 0.0), 0.45, 1.1);
+            let level = now.sampler().unwrap().surface(DVec2::new(x, 0.0), 0.45);
             if let (Some(level), Some(record)) = (level, &now.flume) {
                 particles[k].push([time, level - STILL_LEVEL]);
                 flume[k].push([time, record.elevation(x, time)]);

@@ -90,7 +90,7 @@ fn run(tank: &Tank) -> Results {
     let end = simulation.case.stop.duration;
     let mut samples: Vec<(f64, [f64; 3])> = Vec::new();
     let (mut balance, mut energies) = (Balance::default(), Vec::new());
-    let (middle, top) = (5.0 * tank.dp, simulation.case.domain.top_z);
+    let middle = 5.0 * tank.dp;
     run_until(&mut simulation, end, |now| {
         if now.steps.is_multiple_of(20) {
             balance.add(now.time, now.powers().unwrap());
@@ -99,7 +99,7 @@ fn run(tank: &Tank) -> Results {
         if now.time >= first && now.steps.is_multiple_of(4) {
             let time = now.time;
             let sampler = now.sampler().unwrap();
-            let level = |x: f64| sampler.surface(DVec2::new(x, middle), 0.0, top).unwrap();
+            let level = |x: f64| sampler.surface(DVec2::new(x, middle), 0.0).unwrap();
             samples.push((time, tank.gauges.map(|x| level(x) - tank.wave.depth_m)));
         }
     });

@@ -51,7 +51,7 @@ fn crests(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> [f64; 3] {
     run_until(&mut tank, end, |now| {
         let time = now.flume_time();
         if now.steps.is_multiple_of(10) && (time < until || time > from) {
-            let level = now.sampler().unwrap().surface(DVec2::new(GAUGE, 5.0 * dp), 0.0, 0.6).unwrap() - DEPTH;
+            let level = now.sampler().unwrap().surface(DVec2::new(GAUGE, 5.0 * dp), 0.0).unwrap() - DEPTH;
             let crest = &mut crests[if time < until { 1 } else { 2 }];
             *crest = crest.max(level);
         }

@@ -51,7 +51,7 @@ fn gauges_read_level_and_pressure_of_a_layer() {
     run_until(&mut tank, 1.0, |now| {
         let sampler = now.sampler().unwrap();
         // The y coordinate must not matter.
-        let level = sampler.surface(DVec2::new(0.5, 3.0), 0.0, 0.6).unwrap();
+        let level = sampler.surface(DVec2::new(0.5, 3.0), 0.0).unwrap();
         let at = DVec3::new(0.5, -1.0, 0.1);
         read = vec![level, sampler.sample(at).unwrap().pressure, sampler.occupied(at)];
     });

@@ -6,8 +6,10 @@
 //! | [`numerics`] | properties of the water and options of the SPH scheme |
 //! | [`self_contained`] | the case file that a run stores in its folder |
 //! | [`estimate`] | estimated number of particles, memory and time step |
+//! | [`crest`] | warning about water above the walls |
 //! | [`reynolds`] | warning about over-viscous water |
 
+mod crest;
 pub(super) mod estimate;
 pub(super) mod numerics;
 mod reynolds;
@@ -23,6 +25,7 @@ use super::flume::{bed::Flume, domain::Domain, site::Site};
 use super::output::{files::Output, gauges::Gauge, stop::Stop};
 use super::reading::document::Document;
 use super::reading::error::CaseErrors;
+use super::reading::identity::CaseIdentity;
 use super::reference::Reference;
 use super::units::Units;
 use super::units::contact::Contact;
@@ -45,6 +48,8 @@ pub struct Case {
     /// Hash of all keys except [`Self::KEYS_FREE_AT_START`]. Two runs with the same `start_hash` have the same
     /// state until their units move.
     pub start_hash: String,
+    /// Identity of the case in checkpoints.
+    pub identity: CaseIdentity,
     /// Text of the case file that the run writes into its folder.
     pub text: String,
     /// Bed, mound and still water level of the whole flume.

@@ -1,6 +1,7 @@
 //! Validates a flume case, section by section.
 
 use super::Case;
+use super::crest;
 use super::numerics::{self, Numerics};
 use super::reynolds;
 use super::self_contained::{self_contained, without_keys_free_at_start};
@@ -12,6 +13,7 @@ use crate::case::output::{files, stop, stop::Stop};
 use crate::case::reading::check::{Checker, as_text};
 use crate::case::reading::document::Document;
 use crate::case::reading::hash::fingerprint;
+use crate::case::reading::identity::CaseIdentity;
 use crate::case::reference::{self, Reference};
 use crate::case::units::contact::{self, Contact};
 use crate::case::units::materials::{self, Materials};
@@ -28,7 +30,7 @@ const MOST_PARTICLES: f64 = 1e9;
 /// and returns `None`.
 pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker) -> Option<Case> {
     check.title(&file.title);
-    let materials = materials::validate(&file.materials, &file.friction, file.flume.material.as_deref(), check);
+    let materials = materials::validate(&file.materials, &file.friction, ground_material(file, check), check);
     let flume = bed::validate(&file.flume, materials.ground, check);
     let domain = domain::validate(&file.domain, flume.as_ref(), file.numerics.smoothing_factor, check);
     let fluid = numerics::validate_fluid(&file.fluid, domain.as_ref().map(|domain| domain.depth), check);
@@ -48,6 +50,7 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
     let (wave, domain) = (wave?, domain?);
     wave::refuse_relaxation_zone(domain.relaxation_zone.as_ref(), &wave, wavemaker, check);
     let (kept, read) = self_contained(file, &wave, units.as_ref(), breakage.as_ref());
+    let text = document.stored_text(file, &kept);
     let case = Case {
         title: file.title.clone(),
         assumptions: file.assumptions.clone(),
@@ -55,7 +58,8 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
         name: document.name.clone(),
         hash: fingerprint(&CaseFile { schema: None, reference: None, ..kept.clone() }, &read),
         start_hash: fingerprint(&without_keys_free_at_start(&kept), &read),
-        text: document.stored_text(file, &kept),
+        identity: CaseIdentity::new(&kept, &read, &text),
+        text,
         flume: flume?,
         domain,
         fluid: fluid?,
@@ -73,8 +77,19 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
         stop,
     };
     validate_size(&case, check);
+    crest::warn(&case, check);
     reynolds::warn(&case, check);
     Some(case)
+}
+
+/// Returns the name of the material of the ground. Without units and materials, the name has no effect.
+fn ground_material<'a>(file: &'a CaseFile, check: &mut Checker) -> Option<&'a str> {
+    let name = file.flume.material.as_deref()?;
+    if file.units.is_none() && file.materials.is_empty() {
+        check.warn(format!("flume.material = {name:?}: has no effect without units"));
+        return None;
+    }
+    Some(name)
 }
 
 /// Validated sections on which later sections depend.

@@ -15,6 +15,7 @@ use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::case::reading::document::Document;
 use crate::case::reading::error::CaseErrors;
 use crate::case::reading::hash::fingerprint;
+use crate::case::reading::identity::CaseIdentity;
 use crate::femdem::mesh::{self, PreparedMesh};
 use crate::femdem::setup::Setup;
 pub(super) use bodies::validate_concrete;
@@ -34,6 +35,8 @@ pub struct FractureCase {
     pub warnings: Vec<String>,
     /// Fingerprint of case and mesh: 32 hexadecimal digits.
     pub hash: String,
+    /// Identity of the case in checkpoints.
+    pub identity: CaseIdentity,
     /// Text of the case file that the run writes into its folder, next to the file [`Self::MESH`].
     pub text: String,
     /// Content of the mesh file.
@@ -107,6 +110,7 @@ fn validate(file: &FractureFile, document: &Document, check: &mut Checker) -> Op
         title: file.title.clone(),
         assumptions: file.assumptions.clone(),
         warnings: Vec::new(),
+        identity: CaseIdentity::new(&kept, &mesh_file, &text),
         hash: fingerprint(&FractureFile { schema: None, ..kept }, &mesh_file),
         text,
         mesh_file,

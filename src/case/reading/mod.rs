@@ -7,6 +7,7 @@
 //! | [`check`] | collects the errors and warnings of the validation |
 //! | [`error`] | errors in case files and their messages |
 //! | [`hash`] | fingerprint of a case |
+//! | [`identity`] | identity of a case in a checkpoint |
 //! | [`schema`] | JSON schemas of all kinds of files |
 //! | [`template`] | the example case of `breakwater init` |
 
@@ -14,6 +15,7 @@ pub mod check;
 pub mod document;
 pub mod error;
 pub mod hash;
+pub mod identity;
 pub mod parse;
 pub mod schema;
 pub mod template;

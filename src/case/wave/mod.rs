@@ -5,10 +5,12 @@
 //! | [`theory`] | solitary, regular and irregular waves from wave theory |
 //! | [`external_wave`] | a wave from another program |
 //! | [`wavemaker`] | kind of wavemaker and its parameters |
+//! | [`layers`] | check of the layers of the flume model against the wave |
 //! | [`in_domain`] | checks of wave and wavemaker against the particle domain |
 
 pub mod external_wave;
 mod in_domain;
+mod layers;
 mod theory;
 pub mod wavemaker;
 
@@ -114,6 +116,7 @@ pub(super) fn validate(file: &WaveFile, around: &Surroundings, check: &mut Check
         return None;
     }
     in_domain::validate(&wave, around.wavemaker, around.flume?, around.domain?, check);
+    layers::validate(&wave, around, check);
     (check.count() == before).then_some(wave)
 }
 

@@ -11,17 +11,18 @@ use std::{
 };
 
 use clap::Args;
+use serde_json::{Map, Value};
 
 use super::{
     CommandError,
     devices::DeviceArgument,
     folder::{fresh_folder, stem},
-    input::{load, load_run, other_kind},
+    input::{load, load_run, other_kind, read_run},
     machine::MachineArguments,
 };
 use crate::{
-    case::{InputFile, InputKind},
-    output::{Summary, driver::RunError},
+    case::{Document, InputFile, InputKind},
+    output::{Summary, driver::RunError, write_atomically},
     simulation::{
         dry_test::recorder::DryTestRecorder,
         flume::{
@@ -55,11 +56,17 @@ pub struct RunArguments {
     device: DeviceArgument,
 }
 
-/// Continue an interrupted run from its last checkpoint; the results are bitwise identical to an uninterrupted run.
+/// Continue a run from its last checkpoint; the results are bitwise identical to an uninterrupted run.
+///
+/// A finished run continues if its duration grows: with --until, or by a larger `stop.duration_s` in the case.json of its
+/// folder. In this file, title, assumptions, reference, stop rules and output intervals may also change.
 #[derive(Args)]
 pub struct ResumeArguments {
     /// Folder of the run.
     dir: PathBuf,
+    /// Continue until this simulated time [s]; replaces `stop.duration_s` in the case.json of the folder.
+    #[arg(long, value_name = "SECONDS")]
+    until: Option<f64>,
     #[command(flatten)]
     machine: MachineArguments,
     /// Device that computes the water, as for `run`; default: the device of the interrupted run.
@@ -104,7 +111,11 @@ impl RunArguments {
 
 impl ResumeArguments {
     pub(super) fn execute(self) -> Result<(), CommandError> {
-        match load_run(&self.dir, &[InputKind::Flume, InputKind::DryTest, InputKind::Fracture])? {
+        let kinds = [InputKind::Flume, InputKind::DryTest, InputKind::Fracture];
+        if let Some(until) = self.until {
+            set_duration(&self.dir, &kinds, until)?;
+        }
+        match load_run(&self.dir, &kinds)? {
             InputFile::Flume(case) => {
                 require_checkpoint(&self.dir, Checkpoint::FILE)?;
                 let (case, control) = (Arc::from(case), self.machine.prepare()?);
@@ -132,11 +143,25 @@ fn require_checkpoint(dir: &Path, file: &str) -> Result<(), CommandError> {
         return Ok(());
     }
     let reason = if dir.join(Summary::FILE).exists() {
-        "the run has finished and left no checkpoint; its results are in summary.json"
+        "the run has finished without a checkpoint; its results are in summary.json"
     } else {
         "there is no checkpoint to resume from; start again with breakwater run or breakwater fracture"
     };
     Err(CommandError::refused(format!("{}: {reason}", path.display())))
+}
+
+/// Writes `stop.duration_s` into the case.json of a run folder. Refuses a value with which the case is not valid.
+fn set_duration(dir: &Path, kinds: &[InputKind], until: f64) -> Result<(), CommandError> {
+    let refused = |error: &dyn std::fmt::Display| CommandError::refused(format!("--until {until}: {error}"));
+    let document = read_run(dir, kinds)?;
+    let mut keys: Map<String, Value> = document.parse().map_err(CommandError::refused)?;
+    if let Some(stop) = keys.get_mut("stop").and_then(Value::as_object_mut) {
+        stop.insert("duration_s".to_owned(), until.into());
+    }
+    let text = serde_json::to_string_pretty(&keys).map_err(|error| refused(&error))?;
+    let changed = Document::new(text.clone(), &document.name).map_err(CommandError::refused)?;
+    InputFile::from_document(&changed).map_err(|errors| refused(&errors))?;
+    write_atomically(&dir.join("case.json"), text.as_bytes()).map_err(CommandError::failed)
 }
 
 fn is_same_folder(one: &Path, other: &Path) -> bool {

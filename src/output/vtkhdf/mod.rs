@@ -135,16 +135,15 @@ impl PolyDataSeries {
         })
     }
 
-    /// Opens the file of an interrupted run and keeps only the first `steps` steps.
+    /// Opens the file of an interrupted run and keeps only the first `steps` steps. Creates a missing file if it had no
+    /// steps.
     ///
     /// # Errors
-    /// If the file cannot be opened, lacks a field, or has fewer than `steps` steps.
-    pub fn open_and_truncate(
-        path: &Path,
-        cells: Cells,
-        fields: &[(&str, FieldKind)],
-        steps: usize,
-    ) -> Result<Self, OutputError> {
+    /// If the file cannot be opened or created, lacks a field, or has fewer than `steps` steps.
+    pub fn reopen(path: &Path, cells: Cells, fields: &[(&str, FieldKind)], steps: usize) -> Result<Self, OutputError> {
+        if steps == 0 && !path.exists() {
+            return Self::create(path, cells, fields);
+        }
         let file = open_with_steps(path, "PointData", fields, steps)?;
         let mut series = Self {
             path: path.to_owned(),

@@ -75,7 +75,7 @@ fn a_resumed_series_continues_after_the_checkpoint() {
         append_particles(&mut series, step, count);
     }
     drop(series);
-    let mut series = PolyDataSeries::open_and_truncate(&path, Cells::Vertices, &FLUID, 2).unwrap();
+    let mut series = PolyDataSeries::reopen(&path, Cells::Vertices, &FLUID, 2).unwrap();
     assert_eq!(series.steps(), 2);
     append_particles(&mut series, 2, 6);
     drop(series);
@@ -86,7 +86,7 @@ fn a_resumed_series_continues_after_the_checkpoint() {
     let pressure: Vec<f32> = file.dataset("VTKHDF/PointData/pressure").unwrap().read_raw().unwrap();
     assert_eq!(pressure[8..], [200.0, 201.0, 202.0, 203.0, 204.0, 205.0]);
     drop(file);
-    let error = PolyDataSeries::open_and_truncate(&path, Cells::Vertices, &FLUID, 9).unwrap_err();
+    let error = PolyDataSeries::reopen(&path, Cells::Vertices, &FLUID, 9).unwrap_err();
     assert!(error.to_string().contains("has 3 steps, fewer than the 9"), "{error}");
 }
 
@@ -106,7 +106,7 @@ fn triangles_are_written_again_only_when_they_change() {
     step(&mut series, 0.2, &whole[1..]);
     step(&mut series, 0.3, &whole);
     drop(series);
-    let mut series = PolyDataSeries::open_and_truncate(&path, Cells::Triangles, &fields, 3).unwrap();
+    let mut series = PolyDataSeries::reopen(&path, Cells::Triangles, &fields, 3).unwrap();
     step(&mut series, 0.3, &whole[1..]);
     drop(series);
     let file = File::open(&path).unwrap();

@@ -63,11 +63,15 @@ impl TetSeries {
         Ok(Self::new(path, file, fields, 0))
     }
 
-    /// Opens the file of an interrupted run and keeps only the first `steps` steps.
+    /// Opens the file of an interrupted run and keeps only the first `steps` steps. Creates a missing file if it had no
+    /// steps.
     ///
     /// # Errors
-    /// If the file cannot be opened, lacks a field, or has fewer than `steps` steps.
-    pub fn open_and_truncate(path: &Path, fields: &[(&str, FieldKind)], steps: usize) -> Result<Self, OutputError> {
+    /// If the file cannot be opened or created, lacks a field, or has fewer than `steps` steps.
+    pub fn reopen(path: &Path, fields: &[(&str, FieldKind)], steps: usize) -> Result<Self, OutputError> {
+        if steps == 0 && !path.exists() {
+            return Self::create(path, fields);
+        }
         let file = open_with_steps(path, "CellData", fields, steps)?;
         let mut series = Self::new(path, file, fields, steps);
         series.truncate().map_err(OutputError::hdf5(path))?;
@@ -240,7 +244,7 @@ mod tests {
         assert_eq!(list(&file, "Steps/PointOffsets"), [0, 5, 10, 16]);
         assert_eq!(list(&file, "Steps/CellDataOffsets/stress"), [0, 2, 4, 6]);
         drop(file);
-        let mut series = TetSeries::open_and_truncate(&path, &FIELDS, 2).unwrap();
+        let mut series = TetSeries::reopen(&path, &FIELDS, 2).unwrap();
         assert_eq!(series.steps(), 2);
         append(&mut series, 2.0, 6, &split);
         drop(series);
@@ -252,7 +256,7 @@ mod tests {
         assert_eq!(file.dataset("VTKHDF/CellData/stress").unwrap().shape(), [6, 6]);
         assert_eq!(list(&file, "Steps/ConnectivityIdOffsets"), [0, 0, 8]);
         drop(file);
-        let error = TetSeries::open_and_truncate(&path, &FIELDS, 9).unwrap_err();
+        let error = TetSeries::reopen(&path, &FIELDS, 9).unwrap_err();
         assert!(error.to_string().contains("has 3 steps, fewer than the 9"), "{error}");
     }
 }

@@ -58,6 +58,8 @@ pub struct Measured {
     pub contacts: [u64; 2],
     /// Largest force of any recorded contact [N].
     pub peak_force: f64,
+    /// Wall time of all sessions of the run [s].
+    pub wall_s: f64,
 }
 
 impl DryTest {
@@ -99,7 +101,10 @@ impl DryTest {
     /// If units overlap each other or the ground too much.
     pub fn advance(&mut self, until: f64) -> Result<(), RigidError> {
         let loads = vec![Load::default(); self.start.len()];
-        let dt = MEASUREMENT_INTERVAL.min(until - self.time()).max(0.0);
+        let left = until - self.time();
+        // Rounding errors of the time must not shorten the last step, so that a resumed run makes the same steps.
+        let is_shorter = left < (1.0 - 1e-6) * MEASUREMENT_INTERVAL;
+        let dt = if is_shorter { left.max(0.0) } else { MEASUREMENT_INTERVAL };
         if let DryTestKind::Tilt { .. } = self.case.test {
             let slope = self.slope();
             // The axes are fixed to the bed. Instead of the bed, the direction of gravity is tilted, towards the shore.

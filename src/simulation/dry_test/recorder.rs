@@ -6,20 +6,21 @@ use serde::{Deserialize, Serialize};
 
 use super::{DryTest, Measured};
 use crate::{
-    case::{BreakageSettings, SiteTerrain},
+    case::{BreakageSettings, CaseIdentity, SiteTerrain},
     output::{
-        Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, UnitSurface, columns, is_due, write_atomically,
+        Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, Schedule, UnitSurface, columns,
+        write_atomically,
     },
     rigid::{ContactEvent, RigidSnapshot},
     simulation::flume::outputs::snapshots::{Frame, UNIT_FIELDS},
 };
 
 /// How often each output was written, and the lengths of the tables.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Counts {
-    series: u64,
-    surfaces: u64,
-    checkpoints: u64,
+    series: Schedule,
+    surfaces: Schedule,
+    checkpoints: Schedule,
     /// Lengths of the tables [bytes].
     bytes: [u64; 3],
 }
@@ -28,14 +29,14 @@ struct Counts {
 #[derive(Debug, Serialize, Deserialize)]
 struct Checkpoint {
     version: u32,
-    case_hash: String,
+    case: CaseIdentity,
     world: RigidSnapshot,
     measured: Measured,
     counts: Counts,
 }
 
 /// Version of the checkpoint layout; increased when the layout changes.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 const UNITS_FILE: &str = "units.csv";
 const CONTACTS_FILE: &str = "contacts.csv";
@@ -80,7 +81,12 @@ impl DryTestRecorder {
         let surfaces = |_| PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS);
         let mut recorder = Self {
             dir: dir.to_owned(),
-            counts: Counts::default(),
+            counts: Counts {
+                series: Schedule::every(Some(case.output.series_interval)),
+                surfaces: Schedule::every(case.output.units_interval),
+                checkpoints: Schedule::after_every(case.output.checkpoint_interval),
+                bytes: [0; 3],
+            },
             units: CsvSeries::create(&dir.join(UNITS_FILE), &columns::UNITS)?,
             contacts: CsvSeries::create(&dir.join(CONTACTS_FILE), &columns::CONTACTS)?,
             energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::DRY_ENERGY)?,
@@ -106,16 +112,18 @@ impl DryTestRecorder {
             );
             return Err(OutputError::content(&path, what));
         }
-        if state.case_hash != run.case.hash {
-            return Err(OutputError::content(&path, "belongs to another case than case.json in its folder".to_owned()));
-        }
+        state.case.check(&run.case.identity).map_err(|reason| OutputError::content(&path, reason))?;
         run.world.restore(&state.world).map_err(|error| OutputError::content(&path, error.to_string()))?;
         run.measured = state.measured;
         let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
-        let counts = state.counts;
+        let mut counts = state.counts;
+        let (output, time) = (run.case.output, run.time());
+        counts.series.set_interval(Some(output.series_interval), time);
+        counts.surfaces.set_interval(output.units_interval, time);
+        counts.checkpoints.set_interval(output.checkpoint_interval, time);
         let surfaces = |_| {
-            let steps = counts.surfaces as usize;
-            PolyDataSeries::open_and_truncate(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS, steps)
+            let steps = counts.surfaces.count as usize;
+            PolyDataSeries::reopen(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS, steps)
         };
         Ok(Self {
             dir: dir.to_owned(),
@@ -137,18 +145,18 @@ impl DryTestRecorder {
     /// # Errors
     /// If a file cannot be written.
     pub fn record_due(&mut self, run: &mut DryTest) -> Result<(), OutputError> {
-        let (time, output) = (run.time(), run.case.output);
-        if is_due(self.counts.series, Some(output.series_interval), time) {
+        let time = run.time();
+        if self.counts.series.is_due(time) {
             self.record_series(run)?;
-            self.counts.series += 1;
+            self.counts.series.count += 1;
         }
-        if is_due(self.counts.surfaces, output.units_interval, time) {
+        if self.counts.surfaces.is_due(time) {
             self.record_surfaces(run)?;
-            self.counts.surfaces += 1;
+            self.counts.surfaces.count += 1;
         }
         self.note_lengths();
-        if is_due(self.counts.checkpoints + 1, output.checkpoint_interval, time) {
-            self.counts.checkpoints += 1;
+        if self.counts.checkpoints.is_due(time) {
+            self.counts.checkpoints.count += 1;
             self.record_state(run, Self::CHECKPOINT)?;
         }
         Ok(())
@@ -159,6 +167,8 @@ impl DryTestRecorder {
     /// # Errors
     /// If a file cannot be written.
     pub fn record_end(&mut self, run: &mut DryTest) -> Result<(), OutputError> {
+        // Write the checkpoint before the last rows. A run with a longer duration can then resume from it.
+        self.record_state(run, Self::CHECKPOINT)?;
         self.record_series(run)?;
         if self.surfaces.is_some() {
             self.record_surfaces(run)?;
@@ -177,7 +187,7 @@ impl DryTestRecorder {
         let path = self.dir.join(file);
         let state = Checkpoint {
             version: VERSION,
-            case_hash: run.case.hash.clone(),
+            case: run.case.identity.clone(),
             world: run.world.snapshot(),
             measured: run.measured.clone(),
             counts: self.counts.clone(),

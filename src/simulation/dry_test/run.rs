@@ -21,23 +21,25 @@ use crate::{
 pub fn run(case: Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<DryTestSummary, RunError> {
     let run = DryTest::new(case).map_err(RunError::setup)?;
     let recorder = DryTestRecorder::create(&run, dir)?;
-    drive(RecordedRun { run, recorder }, dir, control)
+    drive(RecordedRun { run, recorder, wall_before: 0.0 }, dir, control)
 }
 
 /// Continues a dry test from its last checkpoint.
 ///
 /// # Errors
-/// As for [`run`], and if the checkpoint does not belong to the case.
+/// As for [`run`], and if the checkpoint does not belong to the case. Title, stop rules and output intervals may differ.
 pub fn resume(case: Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<DryTestSummary, RunError> {
     let mut run = DryTest::new(case).map_err(RunError::setup)?;
     let recorder = DryTestRecorder::reopen(&mut run, dir)?;
-    drive(RecordedRun { run, recorder }, dir, control)
+    drive(RecordedRun { wall_before: run.measured.wall_s, run, recorder }, dir, control)
 }
 
 /// A dry test with its open output files.
 struct RecordedRun {
     run: DryTest,
     recorder: DryTestRecorder,
+    /// Wall time of earlier sessions [s].
+    wall_before: f64,
 }
 
 impl Run for RecordedRun {
@@ -48,9 +50,10 @@ impl Run for RecordedRun {
     }
 
     fn step(&mut self, session: Session) -> Result<Step<DryTestSummary>, StepFailure> {
+        self.run.measured.wall_s = self.wall_before + session.wall;
         if let Some(stopped) = stop_rule(&self.run) {
             self.recorder.record_end(&mut self.run)?;
-            let summary = DryTestSummary::of(&self.run, stopped, session.wall);
+            let summary = DryTestSummary::of(&self.run, stopped);
             summary.write(self.recorder.dir())?;
             return Ok(Step::Ended(summary));
         }

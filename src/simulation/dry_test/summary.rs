@@ -76,8 +76,8 @@ impl DryTestSummary {
     /// File name in the run folder.
     pub const FILE: &str = "summary.json";
 
-    /// Summarises a dry test that has ended; `wall_s` is the wall time of the current session [s].
-    pub fn of(run: &DryTest, stopped: Stopped, wall_s: f64) -> Self {
+    /// Summarises a dry test that has ended.
+    pub fn of(run: &DryTest, stopped: Stopped) -> Self {
         let (measured, energy) = (&run.measured, run.world.energy());
         let unit = |number: usize| {
             let (start, end) = (&run.start[number], &run.world.states()[number]);
@@ -112,7 +112,7 @@ impl DryTestSummary {
             units: (0..run.start.len()).map(unit).collect(),
             assumptions: run.case.assumptions.clone(),
             warnings: run.case.warnings.clone(),
-            execution: Execution::here(wall_s, run.world.substeps() as f64, None),
+            execution: Execution::here(run.measured.wall_s, run.world.substeps() as f64, None),
         }
     }
 

@@ -2,21 +2,15 @@
 
 use std::{path::Path, sync::Arc};
 
-use serde_json::{Map, Value};
-
 use super::{
     Simulation, Units,
     measures::rest::Rest,
-    outputs::{
-        checkpoint::{self, Checkpoint},
-        recorder::Recorder,
-        recorder_state::RecorderState,
-    },
+    outputs::{checkpoint::Checkpoint, recorder::Recorder, recorder_state::RecorderState},
     run::{FlumeRun, RunOptions},
     setup::SetupError,
 };
 use crate::{
-    case::Case,
+    case::{Case, difference},
     output::{
         Summary,
         driver::{RunError, drive},
@@ -48,10 +42,11 @@ impl<'a> Start<'a> {
         }
         let other = Case::load(from.join("case.json")).map_err(|errors| refused(errors.to_string()))?;
         if other.start_hash != case.start_hash {
-            return Err(refused(difference(&case.text, &other.text)));
+            return Err(refused(difference(&case.text, &other.text, &Case::KEYS_FREE_AT_START)));
         }
-        let mut simulation = Simulation::on(&options.device, case).map_err(RunError::setup)?;
-        let outputs = checkpoint::read_of(&mut simulation, from, &other.hash)?;
+        let checkpoint = Checkpoint::read(from, &other.identity)?;
+        let mut simulation = checkpoint.set_up(&options.device, case).map_err(RunError::setup)?;
+        let outputs = checkpoint.restore(&mut simulation, from)?;
         simulation.load().map_err(|error| RunError::setup(SetupError::Device(error)))?;
         let (time, height) = (simulation.flume_time(), simulation.units.as_ref().map(|units| units.shape.height()));
         let moved = simulation.units.iter().flat_map(Units::displacements).fold(0.0, f64::max);
@@ -78,52 +73,5 @@ impl<'a> Start<'a> {
         let recorder = Recorder::branch(&simulation, from, dir, outputs)?;
         Checkpoint::of(&simulation, recorder.state()).write(dir, Checkpoint::FILE)?;
         drive(FlumeRun::new(simulation, recorder, dir, options.until), dir, &options.control)
-    }
-}
-
-/// Returns a message that lists the keys that differ between two case files but must be equal.
-pub fn difference(one: &str, other: &str) -> String {
-    let keys = differing_keys(one, other);
-    let allowed = Case::KEYS_FREE_AT_START.join(", ");
-    if keys.is_empty() {
-        return "a file that both cases use has changed".to_owned();
-    }
-    format!("the cases differ in {}; only {allowed} may differ", keys.join(", "))
-}
-
-/// Returns the top-level keys in which two case files differ, except [`Case::KEYS_FREE_AT_START`].
-fn differing_keys(one: &str, other: &str) -> Vec<String> {
-    let parsed = |text: &str| {
-        let mut keys: Map<String, Value> =
-            serde_json::from_str(text.trim_start_matches('\u{feff}')).unwrap_or_default();
-        if let Some(stop) = keys.get_mut("stop").and_then(Value::as_object_mut) {
-            stop.remove("at_rest");
-        }
-        keys
-    };
-    let (one, other) = (parsed(one), parsed(other));
-    let mut keys: Vec<&String> = one.keys().chain(other.keys()).collect();
-    keys.sort_unstable();
-    keys.dedup();
-    let may_differ = |key: &str| key == "$schema" || Case::KEYS_FREE_AT_START.contains(&key);
-    keys.retain(|key| !may_differ(key) && one.get(*key) != other.get(*key));
-    keys.into_iter().cloned().collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_keys_without_effect_on_still_units_may_differ() {
-        let case = r#"{ "title": "a", "friction": [0.3], "stop": { "duration_s": 1 }, "wave": { "height_m": 0.1 } }"#;
-        let other = r#"{ "title": "b", "friction": [0.5], "stop": { "duration_s": 1, "at_rest": {} },
-            "wave": { "height_m": 0.1 } }"#;
-        assert!(differing_keys(case, other).is_empty());
-        let another = r#"{ "stop": { "duration_s": 2 }, "wave": { "height_m": 0.2 }, "gauges": [] }"#;
-        assert_eq!(differing_keys(case, another), ["gauges", "stop", "wave"]);
-        assert!(
-            difference(case, another).contains("only title, assumptions, reference, friction, stop.at_rest may differ")
-        );
     }
 }

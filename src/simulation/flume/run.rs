@@ -8,11 +8,7 @@ use std::{
 use super::{
     Simulation,
     failure::Failure,
-    outputs::{
-        checkpoint::{self, Checkpoint},
-        recorder::Recorder,
-        summary::summarise,
-    },
+    outputs::{checkpoint::Checkpoint, recorder::Recorder, summary::summarise},
     setup::SetupError,
 };
 use crate::{
@@ -50,10 +46,11 @@ pub fn run(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary,
 /// Continues a run from its last checkpoint.
 ///
 /// # Errors
-/// As for [`run`], and if the checkpoint does not belong to the case.
+/// As for [`run`], and if the checkpoint does not belong to the case. Title, stop rules and output intervals may differ.
 pub fn resume(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
-    let mut simulation = Simulation::on(&options.device, case).map_err(RunError::setup)?;
-    let state = checkpoint::read(&mut simulation, dir)?;
+    let checkpoint = Checkpoint::read(dir, &case.identity)?;
+    let mut simulation = checkpoint.set_up(&options.device, case).map_err(RunError::setup)?;
+    let state = checkpoint.restore(&mut simulation, dir)?;
     simulation.load().map_err(|error| RunError::setup(SetupError::Device(error)))?;
     let recorder = Recorder::reopen(&simulation, dir, state)?;
     drive(FlumeRun::new(simulation, recorder, dir, options.until), dir, &options.control)
@@ -108,9 +105,9 @@ impl Run for FlumeRun {
             self.recorder.record_interruption(&mut now)?;
             return Ok(Step::Stopped);
         }
-        let checkpoints = self.recorder.state().checkpoints;
+        let checkpoints = self.recorder.state().checkpoints.count;
         self.recorder.record_due(&mut now)?;
-        if now.is_on_gpu() && self.recorder.state().checkpoints > checkpoints {
+        if now.is_on_gpu() && self.recorder.state().checkpoints.count > checkpoints {
             // The positions in the checkpoint differ slightly from those on the graphics card. Load the positions of
             // the checkpoint onto the card, as a resumed run does. Both runs then give the same results.
             now.load().map_err(|error| StepFailure::failure(Failure::from(error)))?;

@@ -92,8 +92,13 @@ impl Simulation {
     /// # Errors
     /// As for [`Self::new`], and if the device does not support the scheme of the case or has too little memory.
     pub fn on(device: &Device, case: Arc<Case>) -> Result<Self, SetupError> {
+        Self::starting_at(device, case, None)
+    }
+
+    /// Sets up the simulation as [`Self::on`]; the particles start at the flume time `start` [s], if given.
+    pub(super) fn starting_at(device: &Device, case: Arc<Case>, start: Option<f64>) -> Result<Self, SetupError> {
         let flume = run_flume(&case)?;
-        let start = particle_start(&case, flume.as_ref());
+        let start = start.unwrap_or_else(|| particle_start(&case, flume.as_ref()));
         check_times(&case, start)?;
         let wavemaker = wavemaker(&case, flume.as_ref(), start);
         if let Some(wavemaker) = &wavemaker {

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::run_state::RunState;
 use crate::{
-    case::FractureCase,
+    case::{CaseIdentity, FractureCase},
     femdem::{
         contact::pairs::snapshot::ContactSnapshot,
         world::{
@@ -33,13 +33,13 @@ pub const FILE: &str = "checkpoint.h5";
 pub const FAILED_FILE: &str = "failed.h5";
 
 /// Version of the file layout; increased when the layout changes.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// The state of a run without the arrays.
 #[derive(Serialize, Deserialize)]
 struct Header {
     version: u32,
-    case_hash: String,
+    case: CaseIdentity,
     run: RunState,
     world: Scalars,
 }
@@ -50,7 +50,7 @@ struct Header {
 /// If the file cannot be written; an existing file is then unchanged.
 pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) -> Result<(), OutputError> {
     let state = world.snapshot();
-    let header = Header { version: VERSION, case_hash: case.hash.clone(), run: run.clone(), world: state.scalars };
+    let header = Header { version: VERSION, case: case.identity.clone(), run: run.clone(), world: state.scalars };
     let text = serde_json::to_string(&header).map_err(OutputError::json(path))?;
     write_state(path, &text, |file| write_arrays(file, &state))
 }
@@ -61,15 +61,13 @@ pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) ->
 /// If the checkpoint is missing, damaged or of another case.
 pub fn read(case: &FractureCase, world: &mut World, path: &Path) -> Result<RunState, OutputError> {
     let (text, mut state) = read_state(path, read_arrays)?;
-    let Header { version, case_hash, run, world: scalars } =
+    let Header { version, case: written, run, world: scalars } =
         serde_json::from_str(&text).map_err(OutputError::json(path))?;
     if version != VERSION {
         let what = format!("was written by another version of breakwater (layout {version}); rerun the case");
         return Err(OutputError::content(path, what));
     }
-    if case_hash != case.hash {
-        return Err(OutputError::content(path, "belongs to another case than case.json and mesh.msh in its folder"));
-    }
+    written.check(&case.identity).map_err(|reason| OutputError::content(path, reason))?;
     state.scalars = scalars;
     let damaged = |what| OutputError::content(path, format!("is damaged: {what}; rerun the case"));
     world.restore(state).map_err(damaged)?;

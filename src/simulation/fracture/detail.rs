@@ -38,7 +38,7 @@ pub struct DetailRecorder {
     /// Number of failed faces in the table.
     recorded: usize,
     section: Option<(Section, PolyDataSeries)>,
-    tets: Option<(f64, TetSeries)>,
+    tets: Option<TetSeries>,
 }
 
 impl DetailRecorder {
@@ -48,7 +48,7 @@ impl DetailRecorder {
     /// If a file cannot be written.
     pub fn create(case: &FractureCase, dir: &Path) -> Result<Self, OutputError> {
         let section = |_| PolyDataSeries::create(&dir.join(SECTION_FILE), Cells::Triangles, &SECTION_FIELDS);
-        let tets = |interval| Ok::<_, OutputError>((interval, TetSeries::create(&dir.join(TETS_FILE), &TET_FIELDS)?));
+        let tets = |_| TetSeries::create(&dir.join(TETS_FILE), &TET_FIELDS);
         Ok(Self {
             cracks: CsvSeries::create(&dir.join(CRACKS_FILE), &columns::CRACKS)?,
             recorded: 0,
@@ -63,11 +63,8 @@ impl DetailRecorder {
     /// If a file cannot be opened, or is shorter than at the checkpoint.
     pub fn reopen(case: &FractureCase, dir: &Path, lengths: &DetailLengths) -> Result<Self, OutputError> {
         let (path, steps) = (dir.join(SECTION_FILE), lengths.section_steps);
-        let section = |_| PolyDataSeries::open_and_truncate(&path, Cells::Triangles, &SECTION_FIELDS, steps);
-        let tets = |interval| {
-            let series = TetSeries::open_and_truncate(&dir.join(TETS_FILE), &TET_FIELDS, lengths.tets_steps)?;
-            Ok::<_, OutputError>((interval, series))
-        };
+        let section = |_| PolyDataSeries::reopen(&path, Cells::Triangles, &SECTION_FIELDS, steps);
+        let tets = |_| TetSeries::reopen(&dir.join(TETS_FILE), &TET_FIELDS, lengths.tets_steps);
         Ok(Self {
             cracks: CsvSeries::open_truncated(&dir.join(CRACKS_FILE), lengths.cracks_bytes)?,
             recorded: lengths.cracks,
@@ -82,7 +79,7 @@ impl DetailRecorder {
             cracks_bytes: self.cracks.bytes(),
             cracks: self.recorded,
             section_steps: self.section.as_ref().map_or(0, |(_, series)| series.steps()),
-            tets_steps: self.tets.as_ref().map_or(0, |(_, series)| series.steps()),
+            tets_steps: self.tets.as_ref().map_or(0, TetSeries::steps),
         }
     }
 
@@ -110,17 +107,12 @@ impl DetailRecorder {
         self.section.as_mut().map_or(Ok(()), |(section, series)| section.record(world, series))
     }
 
-    /// Appends the current state of all tetrahedra if an output is due, or if the run has ended (`over`).
+    /// Appends the current state of all tetrahedra, if their file is open.
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn record_tets_if_due(&mut self, world: &World, over: bool) -> Result<(), OutputError> {
-        match &mut self.tets {
-            Some((interval, series)) if over || world.time >= series.steps() as f64 * *interval => {
-                record_tets(world, series)
-            }
-            _ => Ok(()),
-        }
+    pub fn record_tets(&mut self, world: &World) -> Result<(), OutputError> {
+        self.tets.as_mut().map_or(Ok(()), |series| record_tets(world, series))
     }
 }
 

@@ -64,10 +64,9 @@ impl FractureRecorder {
     /// # Errors
     /// If a file is missing or shorter than at the checkpoint.
     pub fn reopen(case: &FractureCase, dir: &Path, state: &RunState) -> Result<Self, OutputError> {
-        let steps = state.frames as usize;
+        let steps = state.frames.count as usize;
         let series = |_| -> Result<[PolyDataSeries; 2], OutputError> {
-            let open =
-                |file, fields| PolyDataSeries::open_and_truncate(&dir.join(file), Cells::Triangles, fields, steps);
+            let open = |file, fields| PolyDataSeries::reopen(&dir.join(file), Cells::Triangles, fields, steps);
             Ok([open(SURFACES_FILE, &SURFACE_FIELDS[..])?, open(CRACKS_FILE, &CRACK_FIELDS[..])?])
         };
         let [energy, bodies] = state.bytes;

@@ -19,7 +19,6 @@ use crate::{
     output::{
         OutputError,
         driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},
-        is_due,
     },
 };
 
@@ -62,20 +61,22 @@ const STEPS_BETWEEN_CHECKS: u64 = 100;
 /// If a file cannot be written, the run becomes unstable, or the user stops it.
 pub fn run(case: &FractureCase, world: World, dir: &Path, control: &Control) -> Result<FractureSummary, RunError> {
     let recorder = FractureRecorder::create(case, dir)?;
-    drive(FractureRun::new(case, world, recorder, RunState::default(), dir), dir, control)
+    drive(FractureRun::new(case, world, recorder, RunState::new(case), dir), dir, control)
 }
 
 /// Continues a fracture run from its last checkpoint; `world` is the solver at the start of the case.
 ///
 /// # Errors
-/// As for [`run`], and if the checkpoint is damaged or does not belong to the case.
+/// As for [`run`], and if the checkpoint is damaged or does not belong to the case. Title, duration and output intervals
+/// may differ.
 pub fn resume(
     case: &FractureCase,
     mut world: World,
     dir: &Path,
     control: &Control,
 ) -> Result<FractureSummary, RunError> {
-    let state = checkpoint::read(case, &mut world, &dir.join(checkpoint::FILE))?;
+    let mut state = checkpoint::read(case, &mut world, &dir.join(checkpoint::FILE))?;
+    state.set_intervals(case, world.time);
     let recorder = FractureRecorder::reopen(case, dir, &state)?;
     drive(FractureRun::new(case, world, recorder, state, dir), dir, control)
 }
@@ -110,24 +111,33 @@ impl<'a> FractureRun<'a> {
         let stresses = largest_stresses(&self.world);
         update_peaks(&mut self.state.watched.peaks, &self.world, &stresses, time);
         self.recorder.record_bodies(time, &bodies, &stresses)?;
-        (self.state.rows, self.state.bytes) = (self.state.rows + 1, self.recorder.bytes());
+        self.state.rows.count += 1;
+        self.state.bytes = self.recorder.bytes();
         Ok(energies)
     }
 
     fn record_surfaces(&mut self) -> Result<(), OutputError> {
         self.recorder.record_surfaces(self.case, &self.world)?;
-        self.state.frames += 1;
+        self.state.frames.count += 1;
+        Ok(())
+    }
+
+    fn record_tets(&mut self) -> Result<(), OutputError> {
+        self.recorder.detail.record_tets(&self.world)?;
+        self.state.tets.count += 1;
         Ok(())
     }
 
     /// Writes the outputs that are due and makes one time step.
     fn advance(&mut self) -> Result<(), StepFailure> {
         let time = self.world.time;
-        if self.case.surfaces_interval.is_some_and(|interval| time >= self.state.frames as f64 * interval) {
+        if self.state.frames.is_due(time) {
             self.record_surfaces()?;
         }
-        self.recorder.detail.record_tets_if_due(&self.world, false)?;
-        if time >= self.state.rows as f64 * self.case.energy_interval {
+        if self.state.tets.is_due(time) {
+            self.record_tets()?;
+        }
+        if self.state.rows.is_due(time) {
             self.step_with_row()?;
         } else {
             self.world.step().map_err(|error| self.failure(error))?;
@@ -136,25 +146,27 @@ impl<'a> FractureRun<'a> {
         if self.state.watched.impact.is_none() && self.world.contacts.touches_other_body(&self.world.tets) {
             self.state.watched.impact = Some(self.world.time - self.world.dt);
         }
-        // The first checkpoint is due after one interval: at the start no checkpoint is needed, because the case file
-        // defines the state.
-        let checkpoint_due = is_due(self.state.checkpoints + 1, self.case.checkpoint_interval, self.world.time);
+        let checkpoint_due = self.state.checkpoints.is_due(self.world.time);
         if checkpoint_due || self.state.watched.steps.is_multiple_of(STEPS_BETWEEN_CHECKS) {
             self.world.check_limits().map_err(|error| self.failure(error))?;
         }
         if checkpoint_due {
-            self.state.checkpoints += 1;
+            self.state.checkpoints.count += 1;
             self.write_checkpoint()?;
         }
         Ok(())
     }
 
-    /// Writes the last outputs and the summary. Makes one more time step, because a time step computes the energies.
+    /// Writes a checkpoint, the last outputs and the summary. A run with a longer duration can resume from the
+    /// checkpoint. Makes one more time step, because a time step computes the energies.
     fn finish(&mut self) -> Result<FractureSummary, StepFailure> {
+        self.write_checkpoint()?;
         if self.case.surfaces_interval.is_some() {
             self.record_surfaces()?;
         }
-        self.recorder.detail.record_tets_if_due(&self.world, true)?;
+        if self.case.tets_interval.is_some() {
+            self.record_tets()?;
+        }
         let energies = self.step_with_row()?;
         let fragments = pieces(&self.world).fragments;
         write_fragments(&fragments, self.dir)?;

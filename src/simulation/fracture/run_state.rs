@@ -3,21 +3,24 @@
 use serde::{Deserialize, Serialize};
 
 use super::peak_stress::PeakStress;
-use crate::femdem::world::energy_balance::EnergyBalance;
+use crate::{case::FractureCase, femdem::world::energy_balance::EnergyBalance, output::Schedule};
 
 /// State of a run in addition to the state of its solver [`World`](crate::femdem::world::World).
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunState {
     /// Extremes and counts since the start.
     pub watched: Watched,
     /// Total of the energy balance at the start [J]; `None` before the first row of the energy balance.
     pub total_at_start: Option<f64>,
-    /// Number of rows of the energy balance.
-    pub rows: u64,
-    /// Number of output times in `surfaces.vtkhdf` and `cracks.vtkhdf`.
-    pub frames: u64,
-    /// Number of checkpoints.
-    pub checkpoints: u64,
+    /// Rows of the energy balance.
+    pub rows: Schedule,
+    /// Outputs in `surfaces.vtkhdf` and `cracks.vtkhdf`.
+    pub frames: Schedule,
+    /// Outputs in `tets.vtkhdf`.
+    pub tets: Schedule,
+    /// Checkpoints. The first is due after one interval: at the start no checkpoint is needed, because the case file
+    /// defines the state.
+    pub checkpoints: Schedule,
     /// Lengths of the tables of the energy balance and of the bodies [bytes].
     pub bytes: [u64; 2],
     /// Lengths of the files of failed faces, cut plane and tetrahedra.
@@ -25,6 +28,28 @@ pub struct RunState {
 }
 
 impl RunState {
+    /// Returns the state at the start of a run.
+    pub fn new(case: &FractureCase) -> Self {
+        Self {
+            watched: Watched::default(),
+            total_at_start: None,
+            rows: Schedule::every(Some(case.energy_interval)),
+            frames: Schedule::every(case.surfaces_interval),
+            tets: Schedule::every(case.tets_interval),
+            checkpoints: Schedule::after_every(case.checkpoint_interval),
+            bytes: [0; 2],
+            detail: DetailLengths::default(),
+        }
+    }
+
+    /// Changes the intervals to those of the case, which may have changed since the checkpoint at `time` [s].
+    pub fn set_intervals(&mut self, case: &FractureCase, time: f64) {
+        self.rows.set_interval(Some(case.energy_interval), time);
+        self.frames.set_interval(case.surfaces_interval, time);
+        self.tets.set_interval(case.tets_interval, time);
+        self.checkpoints.set_interval(case.checkpoint_interval, time);
+    }
+
     /// Updates the extremes with a row of the energy balance. Returns the residual: the total of this row minus the
     /// total at the start [J].
     pub fn note(&mut self, balance: &EnergyBalance) -> f64 {

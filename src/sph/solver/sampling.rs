@@ -1,5 +1,7 @@
 //! Interpolates pressure, velocity and free-surface level of the water at given points.
 
+use std::ops::RangeInclusive;
+
 use glam::{DVec2, DVec3};
 
 use crate::sph::boundary::linear_equations::solve;
@@ -44,34 +46,35 @@ pub struct Sample {
 }
 
 impl Sampler<'_> {
-    /// Calls `f` for each water particle within the kernel support of a point, and returns the accumulated value. `f`
-    /// takes the value accumulated so far, the vector from the point to the particle [m] and the index of the particle.
-    fn fold<T>(&self, point: DVec3, start: T, mut f: impl FnMut(T, DVec3, usize) -> T) -> T {
+    /// Returns the vector from a point to each particle [m], and the index of the particle, for the particles in the bins
+    /// that the kernel support reaches along x and y, and in the rows `z` of bins.
+    fn near(&self, point: DVec3, z: RangeInclusive<usize>) -> impl Iterator<Item = (DVec3, usize)> {
         let (grid, reach) = (self.grid, self.kernel.support());
         let [nx, ny, _] = grid.count;
         let bins = |axis: usize| grid.along(axis, point[axis] - reach)..=grid.along(axis, point[axis] + reach);
-        let (x, z) = (bins(0), bins(2));
+        let x = bins(0);
         // In a periodic flume, search all bins along y. This costs little, because there are few gauges.
         let y = if grid.periodic_width.is_some() { 0..=ny - 1 } else { bins(1) };
-        let mut value = start;
-        for iz in z {
-            for iy in y.clone() {
-                let row = (iz * ny + iy) * nx;
-                let members = self.bins.start[row + x.start()]..self.bins.start[row + x.end() + 1];
-                for b in members.map(|b| b as usize) {
-                    let mut r = self.water.position[b] - point;
-                    if self.kernel.dimensions() == 2 {
-                        r.y = 0.0;
-                    } else if let Some(width) = grid.periodic_width {
-                        r.y -= width * (r.y / width).round();
-                    }
-                    if r.length_squared() < reach * reach {
-                        value = f(value, r, b);
-                    }
-                }
+        let rows = z.flat_map(move |iz| y.clone().map(move |iy| (iz * ny + iy) * nx));
+        let members = rows.flat_map(move |row| self.bins.start[row + x.start()]..self.bins.start[row + x.end() + 1]);
+        members.map(move |b| {
+            let mut r = self.water.position[b as usize] - point;
+            if self.kernel.dimensions() == 2 {
+                r.y = 0.0;
+            } else if let Some(width) = grid.periodic_width {
+                r.y -= width * (r.y / width).round();
             }
-        }
-        value
+            (r, b as usize)
+        })
+    }
+
+    /// Calls `f` for each water particle within the kernel support of a point, and returns the accumulated value. `f`
+    /// takes the value accumulated so far, the vector from the point to the particle [m] and the index of the particle.
+    fn fold<T>(&self, point: DVec3, start: T, mut f: impl FnMut(T, DVec3, usize) -> T) -> T {
+        let reach = self.kernel.support();
+        let z = self.grid.along(2, point.z - reach)..=self.grid.along(2, point.z + reach);
+        let within = self.near(point, z).filter(|(r, _)| r.length_squared() < reach * reach);
+        within.fold(start, |value, (r, b)| f(value, r, b))
     }
 
     /// Returns the weight V W = (m / rho) W [-] of the particle `b`; `r` is the vector from the point to the particle
@@ -120,20 +123,25 @@ impl Sampler<'_> {
         Some(Sample { pressure: value(0), velocity: DVec3::new(value(1), value(2), value(3)) })
     }
 
-    /// Returns the level z of the free surface at (x, y) [m], searched from `high` down to `low` [m]. Returns `None` if
-    /// there is no water between these levels.
-    pub fn surface(&self, xy: DVec2, low: f64, high: f64) -> Option<f64> {
-        let step = 0.25 * self.kernel.h;
+    /// Returns the level z of the free surface at (x, y) [m]: the highest level above `low` [m] at which the sum of W V
+    /// falls to 1/2. Returns `None` if there is no such level.
+    ///
+    /// The search starts above the highest particle, where the sum is zero, also if water stands above the walls.
+    pub fn surface(&self, xy: DVec2, low: f64) -> Option<f64> {
+        let (step, reach) = (0.25 * self.kernel.h, self.kernel.support());
+        let column = self.near(xy.extend(0.0), 0..=self.grid.count[2] - 1);
+        let within = column.filter(|(r, _)| r.truncate().length_squared() < reach * reach);
+        let highest = within.map(|(r, _)| r.z).fold(f64::NEG_INFINITY, f64::max);
         let occupied_at = |z: f64| self.occupied(xy.extend(z));
-        let count = ((high - low) / step).ceil() as u32;
-        let mut above = (high, occupied_at(high));
-        for z in (1..=count).map(|k| high - f64::from(k) * step) {
-            let current = (z, occupied_at(z));
-            if current.1 >= SURFACE {
-                let share = (SURFACE - above.1) / (current.1 - above.1);
-                return Some(above.0 + share * (current.0 - above.0));
+        // The cast gives 0 if there is no particle.
+        let count = ((highest + reach - low) / step).ceil() as u32;
+        let mut above = 0.0;
+        for z in (0..count).rev().map(|k| low + f64::from(k) * step) {
+            let occupied = occupied_at(z);
+            if occupied >= SURFACE {
+                return Some(z + step * (occupied - SURFACE) / (occupied - above));
             }
-            above = current;
+            above = occupied;
         }
         None
     }

@@ -55,6 +55,17 @@ impl IncomingWave {
         }
     }
 
+    /// Linear or harmonic components of the velocity at time t [s]: for each k d [-] and the velocity at still water level
+    /// [m/s]. A solitary wave has none.
+    pub fn harmonics(&self, t: f64) -> Box<dyn Iterator<Item = [f64; 2]> + '_> {
+        let ramped = move |ramp_s: f64| move |[kd, velocity]: [f64; 2]| [kd, ramp(t, ramp_s) * velocity];
+        match self {
+            Self::Solitary { .. } => Box::new(std::iter::empty()),
+            Self::Regular { wave, ramp_s } => Box::new(wave.harmonics(wave.phase(0.0, t)).map(ramped(*ramp_s))),
+            Self::Irregular { wave, ramp_s } => Box::new(wave.harmonics(t).map(ramped(*ramp_s))),
+        }
+    }
+
     /// Still water depth for which the wave is defined [m].
     pub fn depth_m(&self) -> f64 {
         match self {

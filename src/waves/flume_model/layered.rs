@@ -52,6 +52,8 @@ pub struct LayeredFlume {
     layers: usize,
     still_level_m: f64,
     left_end: LeftEnd,
+    /// Differences between the velocity profiles of the model and of wave theory; see `ends::inflow_shapes`.
+    inflow_shapes: Vec<f64>,
     right_end: RightEnd,
     pressure: Pressure,
     friction: Friction,
@@ -106,6 +108,7 @@ impl LayeredFlume {
             gravity: parameters.gravity_m_s2,
             layers,
             still_level_m,
+            inflow_shapes: ends::inflow_shapes(&parameters.left_end, layers),
             left_end: parameters.left_end,
             right_end: parameters.right_end,
             pressure: parameters.pressure,

@@ -207,7 +207,7 @@ impl Stencils {
 
 /// Horizontal velocity u at a relative height above the bed (0 to 1), from the layer means. It is linear in the height
 /// squared, which is exact for the parabola a + b height^2 of a long irrotational wave.
-fn profile_of_u(layers: &[f64], height: f64) -> f64 {
+pub(super) fn profile_of_u(layers: &[f64], height: f64) -> f64 {
     let k = layers.len();
     if k == 1 {
         return layers[0];

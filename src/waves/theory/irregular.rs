@@ -92,6 +92,28 @@ impl IrregularWave {
         self.components.iter().map(|c| c.amplitude * c.angle(t).cos()).sum()
     }
 
+    /// Components of the velocity at time t [s]: for each k d [-] and the velocity at still water level [m/s].
+    pub fn harmonics(&self, t: f64) -> impl Iterator<Item = [f64; 2]> {
+        let d = self.sea.depth_m;
+        self.components.iter().map(move |c| [c.wavenumber * d, c.velocity(d, d, t)])
+    }
+
+    /// Returns the shortest and the longest period of the central part of the spectrum [s], and the parts before and
+    /// after it contain the share `outside` [-] of the energy each.
+    pub fn period_band_s(&self, outside: f64) -> [f64; 2] {
+        let energy = |c: &Component| c.amplitude * c.amplitude;
+        let total: f64 = self.components.iter().map(energy).sum();
+        let period_at = |share: f64| {
+            let mut sum = 0.0;
+            let found = self.components.iter().find(|c| {
+                sum += energy(c);
+                sum >= share * total
+            });
+            found.or(self.components.last()).map_or(self.sea.peak_period_s, |c| TAU / c.angular_frequency)
+        };
+        [period_at(1.0 - outside), period_at(outside)]
+    }
+
     /// Horizontal velocity [m/s] at z [m] above still water and time t [s]: the sum over the components of a omega
     /// cosh(k d s) / sinh(k d) cos(angle), with s = (z + d)/(d + eta), amplitude a and elevation eta of the sum.
     pub fn velocity_m_s(&self, z: f64, t: f64) -> f64 {

@@ -19,6 +19,7 @@ use std::f64::consts::{PI, TAU};
 use super::regular::{MeanFlow, RegularWave, WaveError, linear_wavenumber_per_m, max_height_over_depth};
 
 mod equations;
+pub use equations::cosh_ratio;
 use equations::{SteadyWave, solve};
 
 /// Ratio of the wave heights of successive solutions [-].
@@ -103,14 +104,20 @@ impl StreamFunctionWave {
         self.elevation.iter().enumerate().map(|(j, e)| e * (j as f64 * phase).cos()).sum()
     }
 
+    /// Harmonics of the velocity at a phase [rad]: for each the number j times k d [-], and the velocity at still water
+    /// level [m/s].
+    pub fn harmonics(&self, phase: f64) -> impl Iterator<Item = [f64; 2]> {
+        let kd = self.wavenumber * self.parameters.depth_m;
+        self.velocity.iter().enumerate().map(move |(i, v)| {
+            let j = (i + 1) as f64;
+            [j * kd, v * (j * phase).cos()]
+        })
+    }
+
     /// Horizontal velocity [m/s] at a phase [rad] and z [m] above still water.
     pub fn velocity_m_s(&self, phase: f64, z: f64) -> f64 {
         let d = self.parameters.depth_m;
-        let (kd, height) = (self.wavenumber * d, (z + d) / d);
-        let terms = self.velocity.iter().enumerate().map(|(i, v)| {
-            let j = (i + 1) as f64;
-            v * equations::cosh_ratio(j * kd, height) * (j * phase).cos()
-        });
+        let terms = self.harmonics(phase).map(|[kd, velocity]| velocity * cosh_ratio(kd, (z + d) / d));
         self.mean_velocity + terms.sum::<f64>()
     }
 }

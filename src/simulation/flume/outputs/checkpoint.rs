@@ -3,7 +3,7 @@
 //! Arrays are datasets. One JSON text contains the rest of the state: time, bodies with their contacts, statistics,
 //! progress of the outputs. Every number in this text has the fewest digits that read back to the same bits.
 
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 
 use glam::DVec3;
 use hdf5_metno::{File, Group};
@@ -13,27 +13,31 @@ use super::recorder_state::RecorderState;
 use crate::simulation::flume::{
     Simulation,
     measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts},
+    setup::SetupError,
 };
 use crate::{
+    case::{Case, CaseIdentity},
     output::{
         FluidAtPeak, OutputError,
         state_file::{Hdf5Result, read_state, read_vectors, write_column, write_state, write_vectors},
     },
     rigid::{Load, RigidSnapshot},
-    sph::particles::water::Water,
+    sph::{device::Device, particles::water::Water},
     waves::generation::absorption::AbsorptionState,
 };
 
 /// Version of the file layout; increased when the layout changes.
-const VERSION: u32 = 14;
+const VERSION: u32 = 15;
 
 /// The state of a run without the arrays.
 #[derive(Serialize, Deserialize)]
 struct Scalars {
     version: u32,
-    case_hash: String,
+    case: CaseIdentity,
     /// Name of the device that computed the water.
     device: String,
+    /// Flume time at which the particles started [s].
+    start: f64,
     time: f64,
     steps: u64,
     statistics: Statistics,
@@ -64,8 +68,9 @@ impl Checkpoint {
         let units = simulation.units.as_ref();
         let scalars = Scalars {
             version: VERSION,
-            case_hash: simulation.case.hash.clone(),
+            case: simulation.case.identity.clone(),
             device: simulation.solver.name().to_owned(),
+            start: simulation.start,
             time: simulation.time,
             steps: simulation.steps,
             statistics: simulation.statistics.clone(),
@@ -111,31 +116,12 @@ pub fn device_of(dir: &Path) -> Option<String> {
     parse::<Scalars>(&text, &path).ok().map(|scalars| scalars.device)
 }
 
-/// Restores a simulation of the same case from the checkpoint in `dir`; returns the progress of the outputs.
-///
-/// # Errors
-/// If the checkpoint is missing, damaged or of another case.
-pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
-    let hash = simulation.case.hash.clone();
-    read_of(simulation, dir, &hash)
-}
-
-/// Like [`read`], but for the checkpoint of another case, which must have the same particles and units. `case_hash` is
-/// the hash of this other case.
-///
-/// # Errors
-/// As for [`read`].
-pub fn read_of(simulation: &mut Simulation, dir: &Path, case_hash: &str) -> Result<RecorderState, OutputError> {
-    let checkpoint = Checkpoint::read(dir)?;
-    if checkpoint.scalars.case_hash != case_hash {
-        let what = "belongs to another case than case.json in its folder".to_owned();
-        return Err(OutputError::content(&dir.join(Checkpoint::FILE), what));
-    }
-    checkpoint.restore(simulation, dir)
-}
-
 impl Checkpoint {
-    fn read(dir: &Path) -> Result<Self, OutputError> {
+    /// Reads the checkpoint in `dir` of a run with the case `identity`.
+    ///
+    /// # Errors
+    /// If the checkpoint is missing, damaged or of another case.
+    pub fn read(dir: &Path, identity: &CaseIdentity) -> Result<Self, OutputError> {
         let path = dir.join(Self::FILE);
         let (text, (water, boundary_density, water_at_impacts)) = read_state(&path, read_arrays)?;
         let scalars: Scalars = parse(&text, &path)?;
@@ -146,10 +132,25 @@ impl Checkpoint {
             );
             return Err(OutputError::content(&path, what));
         }
+        scalars.case.check(identity).map_err(|reason| OutputError::content(&path, reason))?;
         Ok(Self { scalars, water, boundary_density, water_at_impacts })
     }
 
-    fn restore(self, simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
+    /// Sets up the simulation of the case. Its particles start at the same flume time as those of the checkpoint, also
+    /// if the case has another duration.
+    ///
+    /// # Errors
+    /// As for [`Simulation::on`].
+    pub fn set_up(&self, device: &Device, case: Arc<Case>) -> Result<Simulation, SetupError> {
+        Simulation::starting_at(device, case, Some(self.scalars.start))
+    }
+
+    /// Restores the state of a simulation with the same particles and units; returns the progress of the outputs. `dir`
+    /// is the folder of the checkpoint.
+    ///
+    /// # Errors
+    /// If the checkpoint does not match the simulation.
+    pub fn restore(self, simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
         let Self { scalars, water, boundary_density, water_at_impacts } = self;
         let path = dir.join(Self::FILE);
         if boundary_density.len() != simulation.boundary.len() {

@@ -21,8 +21,7 @@ use crate::simulation::flume::{Simulation, Units, measures::water_at_impacts::pr
 use crate::{
     case::{BreakageSettings, Case, Gauge, Quantity, ROWS_FILE, Reference, Wave},
     output::{
-        CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, is_due, write_atomically,
-        write_flume_gauges,
+        CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges,
     },
     rigid::{ContactEvent, RecordedContact},
     sph::solver::power::Powers,
@@ -79,7 +78,7 @@ impl Recorder {
         }
         let mut recorder = Self {
             dir: dir.to_owned(),
-            state: RecorderState::default(),
+            state: RecorderState::new(&case.output),
             gauges: CsvSeries::create(&dir.join(GAUGES_FILE), &gauge_columns(case))?,
             units: CsvSeries::create(&dir.join(UNITS_FILE), &columns::UNITS)?,
             contacts: CsvSeries::create(&dir.join(CONTACTS_FILE), &columns::CONTACTS)?,
@@ -95,7 +94,8 @@ impl Recorder {
     ///
     /// # Errors
     /// If a file is missing or shorter than at the checkpoint.
-    pub fn reopen(simulation: &Simulation, dir: &Path, state: RecorderState) -> Result<Self, OutputError> {
+    pub fn reopen(simulation: &Simulation, dir: &Path, mut state: RecorderState) -> Result<Self, OutputError> {
+        state.set_intervals(&simulation.case.output, simulation.time);
         let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
         Ok(Self {
             dir: dir.to_owned(),
@@ -104,7 +104,7 @@ impl Recorder {
             contacts: table(CONTACTS_FILE, state.bytes[2])?,
             energy: table(ENERGY_FILE, state.bytes[3])?,
             diagnostics: table(DIAGNOSTICS_FILE, state.bytes[4])?,
-            writer: Writer::spawn(SnapshotFiles::reopen(simulation, dir, state.water, state.surfaces)?),
+            writer: Writer::spawn(SnapshotFiles::reopen(simulation, dir, state.water.count, state.surfaces.count)?),
             state,
         })
     }
@@ -137,28 +137,27 @@ impl Recorder {
     /// If a file, an earlier snapshot or an earlier checkpoint cannot be written, or the device is lost.
     pub fn record_due(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
         self.writer.check()?;
-        let (time, case) = (now.time, now.case.clone());
-        if self.is_anything_due(&case, time) {
+        let time = now.time;
+        let needs_water = [self.state.series, self.state.water, self.state.checkpoints];
+        if needs_water.iter().any(|output| output.is_due(time)) {
             now.fetch()?;
         }
-        if is_due(self.state.series, Some(case.output.series_interval), time) {
+        if self.state.series.is_due(time) {
             self.record_series(now)?;
-            self.state.series += 1;
+            self.state.series.count += 1;
         }
-        if is_due(self.state.surfaces, case.output.units_interval, time) {
+        if self.state.surfaces.is_due(time) {
             self.record_surfaces(now)?;
-            self.state.surfaces += 1;
+            self.state.surfaces.count += 1;
         }
-        if is_due(self.state.water, case.output.fluid_interval, time) {
+        if self.state.water.is_due(time) {
             self.record_water(now)?;
-            self.state.water += 1;
+            self.state.water.count += 1;
         }
         self.note_lengths();
-        // The first checkpoint is due after one interval: at the start no checkpoint is needed, because the case file
-        // defines the state.
-        if is_due(self.state.checkpoints + 1, case.output.checkpoint_interval, time) {
+        if self.state.checkpoints.is_due(time) {
             // Count first: the checkpoint includes itself in the number of checkpoints.
-            self.state.checkpoints += 1;
+            self.state.checkpoints.count += 1;
             self.record_checkpoint(now)?;
         }
         Ok(())
@@ -208,14 +207,6 @@ impl Recorder {
     /// If a snapshot or checkpoint cannot be written.
     pub fn drain(&mut self) -> Result<(), OutputError> {
         self.writer.drain()
-    }
-
-    /// Returns true if an output that needs the water is due at `time` [s].
-    fn is_anything_due(&self, case: &Case, time: f64) -> bool {
-        let (state, output) = (&self.state, &case.output);
-        is_due(state.series, Some(output.series_interval), time)
-            || is_due(state.water, output.fluid_interval, time)
-            || is_due(state.checkpoints + 1, output.checkpoint_interval, time)
     }
 
     fn note_lengths(&mut self) {
@@ -300,8 +291,8 @@ fn gauge_row(simulation: &Simulation) -> Vec<f64> {
         let sample = || sampler.sample(at).filter(|_| at.x > wet_from);
         match gauge.quantity {
             Quantity::Elevation => {
-                let (bed, top) = (case.flume.profile.z(at.x), case.domain.top_z);
-                let level = sampler.surface(at.truncate(), bed, top).filter(|_| at.x > wet_from);
+                let bed = case.flume.profile.z(at.x);
+                let level = sampler.surface(at.truncate(), bed).filter(|_| at.x > wet_from);
                 row.push(level.map_or(f64::NAN, |z| z - case.flume.still_water_level));
             }
             Quantity::Pressure => row.push(sample().map_or(f64::NAN, |s| s.pressure)),

@@ -45,14 +45,14 @@ impl SnapshotFiles {
     }
 
     /// Opens the files of an interrupted run. Keeps the first `water` snapshots of the water file and the first
-    /// `surfaces` snapshots of the surface file.
+    /// `surfaces` snapshots of the surface file. Creates a file that the case requests only since the interruption.
     ///
     /// # Errors
     /// If a file is missing or shorter than at the checkpoint.
     pub fn reopen(simulation: &Simulation, dir: &Path, water: u64, surfaces: u64) -> Result<Self, OutputError> {
         let fields = water_fields(&simulation.case.output);
         let open = |file: &str, cells: Cells, fields: &[(&str, FieldKind)], steps: u64| {
-            PolyDataSeries::open_and_truncate(&dir.join(file), cells, fields, steps as usize)
+            PolyDataSeries::reopen(&dir.join(file), cells, fields, steps as usize)
         };
         let water = |_| open(WATER_FILE, Cells::Vertices, &fields, water);
         let surfaces = |_| open(SURFACES_FILE, Cells::Triangles, &UNIT_FIELDS, surfaces);

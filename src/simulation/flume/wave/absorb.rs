@@ -23,7 +23,7 @@ impl Simulation {
     fn excess(&self, wavemaker: &Wavemaker, distance: f64, t: f64) -> f64 {
         let (domain, flume) = (&self.case.domain, &self.case.flume);
         let x = wavemaker.x_at_surface_m(t) + self.absorbed.displacement_m + distance;
-        let surface = self.sampler().surface(DVec2::new(x, 0.5 * domain.width), flume.profile.z(x), domain.top_z);
+        let surface = self.sampler().surface(DVec2::new(x, 0.5 * domain.width), flume.profile.z(x));
         let made = match (wavemaker, &self.flume) {
             (Wavemaker::Paddle(paddle), _) => paddle.elevation_m(distance, t),
             (Wavemaker::MlPiston(_), Some(record)) => record.elevation(x, t),

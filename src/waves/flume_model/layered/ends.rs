@@ -2,7 +2,9 @@
 //!
 //! * Weakly reflecting inflow (Blayo & Debreu 2005; Zijlema et al. 2011, section 4.4): layer m has the velocity
 //!   u_m = u_in(z_m) - sqrt(g / d) (eta - eta_in). u_in and eta_in are velocity and elevation of the incoming wave. The
-//!   excess of the elevation eta leaves as a long wave in the still water depth d.
+//!   excess of the elevation eta leaves as a long wave in the still water depth d. Each harmonic of u_in is distributed
+//!   over the layers as in a free wave of the model (`dispersion`), with its exact volume flux. With the exact profile,
+//!   short waves would lose height at the inflow: 14 % with two layers at k d = 4.
 //! * Radiating end: the incoming characteristic has its value in still water, so the depth-mean velocity is
 //!   2 (sqrt(g H) - sqrt(g d)), with the depth H. Velocity differences between the layers are copied from the nearest
 //!   inner face. This condition is exact for small long waves; higher or shorter waves are partly reflected.
@@ -10,6 +12,8 @@
 //!   sponge (Israeli & Orszag 1981).
 
 use super::{LayeredFlume, LayeredParameters, LeftEnd, RightEnd};
+use crate::waves::flume_model::dispersion::layer_shares;
+use crate::waves::theory::stream_function::cosh_ratio;
 
 /// Integral of the damping rate over the length of the sponge, divided by the long-wave celerity [-]. A long wave that
 /// the wall reflects leaves the sponge with exp(-6) = 0.25 % of its height.
@@ -55,7 +59,9 @@ impl LayeredFlume {
         let (eta, incoming) = (self.left_elevation(), wave.elevation_m(t));
         let layer = (still + incoming) / self.layers as f64;
         let velocity = |node: f64| wave.velocity_m_s((m as f64 + 0.5 + 0.5 * node) * layer - still, t);
-        0.5 * (velocity(-GAUSS) + velocity(GAUSS)) - (self.gravity / still).sqrt() * (eta - incoming)
+        let shapes = self.inflow_shapes.iter().skip(m).step_by(self.layers);
+        let shift: f64 = wave.harmonics(t).zip(shapes).map(|([_, velocity], shape)| velocity * shape).sum();
+        0.5 * (velocity(-GAUSS) + velocity(GAUSS)) + shift - (self.gravity / still).sqrt() * (eta - incoming)
     }
 
     /// Elevation above still water at the left end face at n + 1/2 [m].
@@ -92,6 +98,21 @@ impl LayeredFlume {
         let [near, far] = if face == 0 { [0, 1] } else { [last, last - 1] };
         (1.5 * depth[near] - 0.5 * depth[far]).max(0.0)
     }
+}
+
+/// Differences between the velocity profiles of the model and of wave theory in still water: for each harmonic of the
+/// incoming wave and each layer from the bed upwards, the difference divided by the velocity at still water level [-].
+pub(super) fn inflow_shapes(left_end: &LeftEnd, layers: usize) -> Vec<f64> {
+    let LeftEnd::Inflow(wave) = left_end else { return Vec::new() };
+    let difference = |[kd, _]: [f64; 2]| {
+        let mean = kd.tanh() / kd;
+        let shares = layer_shares(kd, layers).into_iter().enumerate();
+        shares.map(move |(m, share)| {
+            let exact = |node: f64| cosh_ratio(kd, (m as f64 + 0.5 + 0.5 * node) / layers as f64);
+            mean * share - 0.5 * (exact(-GAUSS) + exact(GAUSS))
+        })
+    };
+    wave.harmonics(0.0).flat_map(difference).collect()
 }
 
 /// Damping rates of the sponge at positions x [m]: 4 A c s^3 / L [1/s], where A is `SPONGE_STRENGTH`, c the long-wave
