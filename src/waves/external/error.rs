@@ -55,7 +55,8 @@ pub enum ExternalError {
     },
     /// The file has too few levels with velocities.
     #[error(
-        "{file}: at t = {} s: {layers} level(s) in the water with a velocity; at least 2 are needed; sample more levels",
+        "{file}: at t = {} s: {layers} level(s) in the water with a velocity; at least 2 are needed; \
+         sample more levels",
         as_text(*.time_s)
     )]
     TooFewLayers {

@@ -6,8 +6,8 @@ use super::error::ExternalError;
 use super::numbers::as_text;
 use super::table::{Place, check_times, linear, median};
 
-/// Largest distance of the surface levels from the still water level, relative to the still water depth [-]. The set-down
-/// under waves is smaller: H^2 / (16 d) in shallow water (Longuet-Higgins & Stewart 1964), 0.02 d for H = 0.6 d.
+/// Largest distance of the surface levels from the still water level, relative to the still water depth [-]. The
+/// set-down under waves is smaller: H^2 / (16 d) in shallow water (Longuet-Higgins & Stewart 1964), 0.02 d for H = 0.6 d.
 const OFF_DATUM: f64 = 0.05;
 
 /// Surface level over time.
@@ -116,8 +116,8 @@ pub(super) fn check_datum(
     Err(ExternalError::file(
         file,
         format!(
-            "the surface levels are about {off} m {side} the still water level z = {} m: the first is z = {first} m, the \
-             median {median} m, the mean {mean} m; at most {} m is allowed",
+            "the surface levels are about {off} m {side} the still water level z = {} m: the first is z = {first} m, \
+             the median {median} m, the mean {mean} m; at most {} m is allowed",
             as_text(still),
             as_text(tolerance)
         ),

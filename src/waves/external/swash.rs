@@ -17,9 +17,10 @@
 //! | `WATL` | water level [m] above the datum of the run, see below |
 //! | exception value | -99 for `WATL` and 0 for velocities at a dry point; `QUANTITY ... excv=` changes them |
 //!
-//! `WATL` is 0 in still water, with or without `SET LEVEL`: this command adds its level to the still water depth (manual,
-//! section 4.5.2, `READINP WLEVEL`). Only a run with water levels on an input grid (`INPGRID WLEVEL`) counts `WATL` from
-//! the datum of the bottom levels. [`Tables::origin_z_m`] is then the level z of this datum.
+//! `WATL` is 0 in still water, with or without `SET LEVEL`: this command adds its level to the still water depth
+//! (manual, section 4.5.2, `READINP WLEVEL`; in the source code, routine `SwashCheckPrep`). Only a run with water levels
+//! on an input grid (`INPGRID WLEVEL`) counts `WATL` from the datum of the bottom levels. [`Tables::origin_z_m`] is then
+//! the level z of this datum.
 //!
 //! The number in a column name gives the layer; without numbers, the order of the columns gives the layer. The third
 //! format, `TABLE ... SWASH`, is not supported. Velocities are in m/s along x of SWASH. Tables that went through a

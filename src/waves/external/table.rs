@@ -60,8 +60,8 @@ impl Place {
         self.still_water_z_m - self.bed_z_m
     }
 
-    /// Returns true if all levels z between `lowest` and `highest` [m] can be in the water, under a surface at the level
-    /// z `surface` [m].
+    /// Returns true if all levels z between `lowest` and `highest` [m] can be in the water, under a surface at the
+    /// level z `surface` [m].
     pub(super) fn is_water(&self, [lowest, highest]: [f64; 2], surface: f64) -> bool {
         let margin = OUTSIDE * self.depth_m();
         lowest >= self.bed_z_m - margin && highest <= surface + margin

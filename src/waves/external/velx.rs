@@ -1,8 +1,8 @@
 //! Conversion from and to DualSPHysics' `_velx` files ([`crate::waves::generation::velx`]).
 //!
 //! Line 1 is `px:;x;py:;y`, line 2 is `time;pz_0;...;vel_0;...`. Each further line has a time, the levels and the
-//! velocities. Semicolons separate the values, or commas (option `-csvsep:1` of DualSPHysics' tools). The levels rise or
-//! fall in the whole file. They can count from different levels:
+//! velocities. Semicolons separate the values, or commas (option `-csvsep:1` of DualSPHysics' tools). The levels rise
+//! or fall in the whole file. They can count from different levels:
 //!
 //! | file | level 0 |
 //! | --- | --- |
@@ -32,7 +32,8 @@ pub enum LevelsFrom {
     Surface,
 }
 
-/// Reads a `_velx` file. `origin_z_m` is the level z at the level 0 of the file [m]; if it is not given, the levels decide.
+/// Reads a `_velx` file. `origin_z_m` is the level z at the level 0 of the file [m]; if it is not given, the levels
+/// decide.
 ///
 /// # Errors
 /// If the file cannot be read, a line is wrong, the levels are not in the water, or the values fail the checks of
@@ -147,8 +148,8 @@ fn find_origins(velx: &Velx, path: &Path, place: &Place) -> Result<(LevelsFrom, 
     Err(ExternalError::file(
         path,
         format!(
-            "the levels, {lowest} to {highest} m, are neither in the water, z = {bed} to {still} m, nor would they be if \
-             they counted from the still water level"
+            "the levels, {lowest} to {highest} m, are neither in the water, z = {bed} to {still} m, nor would they be \
+             if they counted from the still water level"
         ),
         "write `origin_z_m`, the level z of the case at the level 0 of the file, in `wave.source`; check the unit",
     ))
