@@ -252,3 +252,40 @@ fn collect_keys(value: &serde_json::Value, keys: &mut Vec<String>) {
         _ => {}
     }
 }
+
+/// Validates a case whose wave comes from `source`, a file in `tests/data/waves`.
+fn case_with_wave(source: &serde_json::Value) -> Case {
+    let case = serde_json::json!({
+        "title": "A wave from files",
+        "flume": { "bed_m": [[0.0, 0.0], [6.0, 0.0]], "still_water_level_m": 0.5 },
+        "domain": { "x_m": [2.0, 5.0], "sides": "two_dimensional", "top_z_m": 0.8, "dp_m": 0.05, "start_s": 1.0 },
+        "wave": { "kind": "file", "source": source },
+        "stop": { "duration_s": 3.0 }
+    });
+    let name = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/waves/case.json");
+    Case::from_str(&case.to_string(), &name.display().to_string()).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Returns the largest velocity of the lowest and of the highest row of the wavemaker [m/s].
+fn largest_velocities(case: &Case) -> [f64; 2] {
+    let Wave::External(wave) = &case.wave else { panic!("the wave does not come from files") };
+    let largest = |row: usize| wave.rows.velocities_m_s.iter().map(|rows| rows[row]).fold(f64::MIN, f64::max);
+    [largest(0), largest(wave.rows.velocities_m_s[0].len() - 1)]
+}
+
+#[test]
+fn levels_from_the_surface_are_read_with_a_warning() {
+    let case = case_with_wave(&serde_json::json!({ "format": "dualsphysics", "path": "pydsphtools_velx.csv" }));
+    let warned = case.warnings.iter().find(|warning| warning.contains("wave.source.origin_z_m is missing")).unwrap();
+    assert!(warned.contains("count from the surface, which is at the still water, z = 0.5 m, at rest"), "{warned}");
+    // The file has the velocity c H / (d + H) = sqrt(9.81 0.7) 0.2 / 0.7 under the crest, with 6 decimals.
+    assert!(largest_velocities(&case).iter().all(|u| (u - 0.748_713).abs() < 1e-6));
+}
+
+#[test]
+fn depth_averaged_velocity_is_read_if_allowed() {
+    let table = serde_json::json!({ "path": "swash.tbl" });
+    let source = serde_json::json!({ "format": "swash", "level": table, "velocity": table, "depth_averaged": true });
+    // c H / (d + H) = sqrt(9.81 0.55) 0.05 / 0.55 at all levels, with 6 decimals.
+    assert!(largest_velocities(&case_with_wave(&source)).iter().all(|u| (u - 0.211_166).abs() < 1e-6));
+}

@@ -36,6 +36,10 @@ pub enum WaveSourceFile {
 pub struct VelxFile {
     /// Path of the file.
     pub path: PathBuf,
+    /// Level z of the case at the level 0 of the file [m]. By default, the levels of the file are z; if no level is in
+    /// the water then, they count from the still water level or from the surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub origin_z_m: Option<f64>,
 }
 
 /// Tables that SWASH has written for one point.
@@ -49,6 +53,19 @@ pub struct SwashFile {
     /// Thickness of each layer / water depth [-], from the surface downwards. Default: all layers are equally thick.
     #[serde(default)]
     pub layer_shares: Vec<f64>,
+    /// True if the velocity is depth-averaged (`VEL` or `VKSI`, or one layer). The water at the wavemaker then moves
+    /// with the same velocity at all heights, which is correct for long waves only.
+    #[serde(default)]
+    pub depth_averaged: bool,
+    /// Level z of the case at which `WATL` is 0 [m]. Default: the still water level.
+    #[serde(default)]
+    pub origin_z_m: Option<f64>,
+    /// Time between two rows [s], for tables without the column `TSEC`.
+    #[serde(default)]
+    pub row_interval_s: Option<f64>,
+    /// Time of the first row [s], for tables without the column `TSEC`. Default: 0.
+    #[serde(default)]
+    pub first_row_s: Option<f64>,
 }
 
 /// One table from SWASH.
@@ -57,7 +74,8 @@ pub struct SwashFile {
 pub struct SwashTableFile {
     /// Path of the file.
     pub path: PathBuf,
-    /// Names of the columns from left to right, required if the file has no header: `tsec` (time), `watl` (water
+    /// Names of the columns from left to right, required if the file has no header. They replace the names in a header:
+    /// `tsec` (time), `watl` (water
     /// level), `velk1`, `velk2` and so on (x velocity of a layer, layer 1 at the surface), `velx` (depth-averaged x
     /// velocity), `-` for any other column.
     #[serde(default)]

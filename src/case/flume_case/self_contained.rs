@@ -18,7 +18,7 @@ pub(super) fn self_contained(
 ) -> (CaseFile, Vec<u8>) {
     let (mut kept, mut read) = (file.clone(), Vec::new());
     if let Wave::External(wave) = wave {
-        let source = WaveSourceFile::Dualsphysics(VelxFile { path: ROWS_FILE.into() });
+        let source = WaveSourceFile::Dualsphysics(VelxFile { path: ROWS_FILE.into(), origin_z_m: None });
         kept.wave = WaveFile::File(ExternalWaveFile { source, celerity_m_s: wave.celerity });
         read = wave.rows_text();
     }

@@ -10,9 +10,9 @@ use crate::case::reading::check::{Checker, as_text, more_than};
 use crate::waves::external::{
     error::ExternalError,
     openfoam::{Frame, Up, Vertical, lines, probes},
-    swash::{self, Column, TableFile, Tables},
+    swash::{self, Column, RowTimes, TableFile, Tables},
     table::{Layers, Place, VelocityTable},
-    velx,
+    velx::{self, LevelsFrom},
 };
 use crate::waves::generation::velx::Velx;
 
@@ -65,7 +65,10 @@ pub fn validate(
         bed_z_m: flume.profile.z(x0),
         still_water_z_m: flume.still_water_level,
         gravity_m_s2: gravity,
-        layers: Layers::AtLeastTwo,
+        layers: match &file.source {
+            WaveSourceFile::Swash(SwashFile { depth_averaged: true, .. }) => Layers::DepthAveraged,
+            _ => Layers::AtLeastTwo,
+        },
     };
     // Other checks report dry ground and invalid gravity.
     if place.depth_m() <= 0.0 || gravity.is_nan() || gravity <= 0.0 {
@@ -93,10 +96,32 @@ type Read = Result<VelocityTable, ExternalError>;
 
 fn read(source: &WaveSourceFile, base: &Path, place: &Place, check: &mut Checker) -> Option<Read> {
     match source {
-        WaveSourceFile::Dualsphysics(VelxFile { path }) => Some(velx::read(&base.join(path), place)),
+        WaveSourceFile::Dualsphysics(file) => Some(read_velx(file, base, place, check)),
         WaveSourceFile::Swash(file) => read_swash(file, base, place, check),
         WaveSourceFile::Openfoam(file) => Some(read_openfoam(file, base, place)),
     }
+}
+
+fn read_velx(file: &VelxFile, base: &Path, place: &Place, check: &mut Checker) -> Read {
+    let path = base.join(&file.path);
+    let (table, from) = velx::read(&path, file.origin_z_m, place)?;
+    let (path, still) = (path.display(), as_text(place.still_water_z_m));
+    match from {
+        LevelsFrom::Origin => {}
+        LevelsFrom::OriginRatherThanStillWater => check.warn(format!(
+            "wave.source.origin_z_m is missing: the levels in {path} are used as z, but they would also be in the water if \
+             they counted from the still water; write 0 for z, or {still} for the still water level"
+        )),
+        LevelsFrom::StillWater => check.warn(format!(
+            "wave.source.origin_z_m is missing: the levels in {path} count from the still water, z = {still} m, because \
+             they are not in the water as z; write {still} to confirm this"
+        )),
+        LevelsFrom::Surface => check.warn(format!(
+            "wave.source.origin_z_m is missing: the levels in {path} count from the surface, which is at the still water, \
+             z = {still} m, at rest, because they are not in the water as z and the lowest level moves against the surface"
+        )),
+    }
+    Ok(table)
 }
 
 fn read_openfoam(file: &OpenfoamFile, base: &Path, place: &Place) -> Read {
@@ -120,14 +145,36 @@ fn read_openfoam(file: &OpenfoamFile, base: &Path, place: &Place) -> Read {
 fn read_swash(file: &SwashFile, base: &Path, place: &Place, check: &mut Checker) -> Option<Read> {
     let level = parse_columns("wave.source.level", &file.level, check);
     let velocity = parse_columns("wave.source.velocity", &file.velocity, check);
+    let before = check.count();
+    let row_times = row_times(file, check);
     let (level, velocity) = (level?, velocity?);
+    if check.count() > before {
+        return None;
+    }
     let [level_path, velocity_path] = [&file.level, &file.velocity].map(|table| base.join(&table.path));
     let tables = Tables {
         level: TableFile { path: &level_path, columns: &level },
         velocity: TableFile { path: &velocity_path, columns: &velocity },
         layer_shares: &file.layer_shares,
+        row_times,
+        origin_z_m: file.origin_z_m.unwrap_or(place.still_water_z_m),
     };
     Some(swash::read(&tables, place))
+}
+
+/// Returns the times of the rows of tables without a column of times.
+fn row_times(file: &SwashFile, check: &mut Checker) -> Option<RowTimes> {
+    let first = file.first_row_s.unwrap_or(0.0);
+    let Some(interval) = file.row_interval_s else {
+        if file.first_row_s.is_some() {
+            let advice = "write `row_interval_s`, the time in seconds between two rows, or remove `first_row_s`";
+            check.reject("wave.source.first_row_s", as_text(first), "left out without `row_interval_s`", advice);
+        }
+        return None;
+    };
+    let advice = "write the output interval of the TABLE command in seconds";
+    let valid = check.number("wave.source.row_interval_s", interval, more_than(0.0).up_to(3600.0), "s", advice);
+    valid.then_some(RowTimes { first_s: first, interval_s: interval })
 }
 
 /// Returns the columns of a SWASH table from their names in the case file.

@@ -36,7 +36,7 @@ fn table() -> VelocityTable {
 fn through_velx(folder: &Path) -> VelocityTable {
     let path = folder.join("wave_velx.csv");
     table().velx([3.0, 0.0], &levels()).write(File::create(&path).unwrap()).unwrap();
-    velx::read(&path, &PLACE).unwrap()
+    velx::read(&path, None, &PLACE).unwrap().0
 }
 
 fn through_swash(folder: &Path) -> VelocityTable {
@@ -45,7 +45,14 @@ fn through_swash(folder: &Path) -> VelocityTable {
     swash::write_level(&table(), &PLACE, Heading::Names, File::create(&level).unwrap()).unwrap();
     swash::write_velocities(&table(), &PLACE, &shares, Heading::Names, File::create(&velocity).unwrap()).unwrap();
     let file = |path| swash::TableFile { path, columns: &[] };
-    swash::read(&swash::Tables { level: file(&level), velocity: file(&velocity), layer_shares: &[] }, &PLACE).unwrap()
+    let tables = swash::Tables {
+        level: file(&level),
+        velocity: file(&velocity),
+        layer_shares: &[],
+        row_times: None,
+        origin_z_m: PLACE.still_water_z_m,
+    };
+    swash::read(&tables, &PLACE).unwrap()
 }
 
 fn through_probes(folder: &Path) -> VelocityTable {

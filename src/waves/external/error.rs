@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::numbers::as_text;
+
 /// An error in a file of another program: where it is, what is wrong, and what to do.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ExternalError {
@@ -40,7 +42,7 @@ pub enum ExternalError {
         advice: String,
     },
     /// The values at one time are implausible.
-    #[error("{file}: at t = {time_s} s: {problem}; {advice}")]
+    #[error("{file}: at t = {} s: {problem}; {advice}", as_text(*.time_s))]
     Moment {
         /// The file, or the folder of files that were joined.
         file: PathBuf,
@@ -53,8 +55,9 @@ pub enum ExternalError {
     },
     /// The file has too few levels with velocities.
     #[error(
-        "{file}: at t = {time_s} s: {layers} level(s) in the water with a velocity; at least 2 are needed; \
-         sample more levels, or allow a depth-averaged velocity"
+        "{file}: at t = {} s: {layers} level(s) in the water with a velocity; at least 2 are needed; \
+         sample more levels",
+        as_text(*.time_s)
     )]
     TooFewLayers {
         /// The file, or the folder of files that were joined.

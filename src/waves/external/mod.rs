@@ -12,6 +12,7 @@
 
 pub mod comparison;
 pub mod error;
+mod numbers;
 pub mod openfoam;
 pub mod surface;
 pub mod swash;

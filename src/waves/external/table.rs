@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use super::error::ExternalError;
+use super::numbers::as_text;
 
 /// An interval between two times that is longer than this number of median intervals is a gap. One lost row makes an
 /// interval of 2 medians; a restart without its first output makes an interval of a few medians.
@@ -58,6 +59,23 @@ impl Place {
     pub fn depth_m(&self) -> f64 {
         self.still_water_z_m - self.bed_z_m
     }
+
+    /// Returns true if all levels z between `lowest` and `highest` [m] can be in the water, under a surface at the
+    /// level z `surface` [m].
+    pub(super) fn is_water(&self, [lowest, highest]: [f64; 2], surface: f64) -> bool {
+        let margin = OUTSIDE * self.depth_m();
+        lowest >= self.bed_z_m - margin && highest <= surface + margin
+    }
+
+    /// Highest plausible velocity [m/s].
+    pub(super) fn fastest_m_s(&self) -> f64 {
+        FASTEST * (self.gravity_m_s2 * self.depth_m()).sqrt()
+    }
+
+    /// Highest plausible surface level z [m].
+    pub(super) fn highest_surface_m(&self) -> f64 {
+        self.still_water_z_m + self.depth_m()
+    }
 }
 
 impl VelocityTable {
@@ -108,14 +126,19 @@ impl VelocityTable {
     /// Checks that the surface is above the bed and at most one depth above still water.
     fn check_surface(&self, i: usize, file: &Path, place: &Place) -> Result<(), ExternalError> {
         let Some(level) = self.surface_z_m.as_ref().map(|levels| levels[i]) else { return Ok(()) };
-        let (bed, top) = (place.bed_z_m, place.still_water_z_m + place.depth_m());
+        let (bed, top) = (place.bed_z_m, place.highest_surface_m());
         if level > bed && level <= top {
             return Ok(());
         }
         Err(ExternalError::moment(
             file,
             self.times_s[i],
-            format!("the surface level z = {level} m is not between the bed, {bed} m, and {top} m"),
+            format!(
+                "the surface level z = {} m is not between the bed, {} m, and {} m",
+                as_text(level),
+                as_text(bed),
+                as_text(top)
+            ),
             "check the bed level, the still water level and the unit; the position must stay wet",
         ))
     }
@@ -134,20 +157,23 @@ impl VelocityTable {
             return Err(ExternalError::moment(
                 file,
                 t,
-                format!("the level z = {} m is not above the previous level, {} m", pair[1], pair[0]),
+                format!("the level z = {} m is not above the previous level, {} m", as_text(pair[1]), as_text(pair[0])),
                 "list every level once, from the bed upwards",
             ));
         }
-        let surface = self.surface_z_m.as_ref().map_or(place.still_water_z_m + place.depth_m(), |levels| levels[i]);
-        let margin = OUTSIDE * place.depth_m();
-        let in_water = place.bed_z_m - margin..=surface + margin;
-        match heights.iter().find(|z| !in_water.contains(z)) {
+        let surface = self.surface_z_m.as_ref().map_or(place.highest_surface_m(), |levels| levels[i]);
+        match heights.iter().find(|&&z| !place.is_water([z, z], surface)) {
             None => Ok(()),
-            Some(z) => Err(ExternalError::moment(
+            Some(&z) => Err(ExternalError::moment(
                 file,
                 t,
-                format!("the level z = {z} m is not in the water, {} to {surface} m", place.bed_z_m),
-                "check the origin of z, the vertical axis and the unit; leave out samples in air",
+                format!(
+                    "the level z = {} m is not in the water, {} to {} m",
+                    as_text(z),
+                    as_text(place.bed_z_m),
+                    as_text(surface)
+                ),
+                "check the origin of z (`origin_z_m`), the vertical axis and the unit; leave out samples in air",
             )),
         }
     }
@@ -156,17 +182,16 @@ impl VelocityTable {
     fn check_velocities(&self, i: usize, file: &Path, place: &Place) -> Result<(), ExternalError> {
         let (t, heights, velocities) = (self.times_s[i], &self.heights_m[i], &self.velocities_m_s[i]);
         assert_eq!(heights.len(), velocities.len(), "one velocity per level");
-        let depth = place.depth_m();
-        let limit = FASTEST * (place.gravity_m_s2 * depth).sqrt();
+        let (depth, limit) = (place.depth_m(), place.fastest_m_s());
         let Some((z, u)) = heights.iter().zip(velocities).find(|(_, u)| u.is_nan() || u.abs() > limit) else {
             return Ok(());
         };
-        let problem = format!("the velocity at z = {z} m is {u}");
+        let problem = format!("the velocity at z = {} m is {}", as_text(*z), as_text(*u));
         Err(if u.is_finite() {
             ExternalError::moment(
                 file,
                 t,
-                format!("{problem} m/s, above 3 sqrt(g d) = {limit:.3} m/s in a depth of {depth} m"),
+                format!("{problem} m/s, above 3 sqrt(g d) = {} m/s in a depth of {} m", as_text(limit), as_text(depth)),
                 "check the unit: velocities must be in m/s",
             )
         } else {
@@ -191,21 +216,31 @@ pub(super) fn check_times(file: &Path, times_s: &[f64]) -> Result<(), ExternalEr
         if !interval.is_finite() || interval <= 0.0 {
             return Err(ExternalError::file(
                 file,
-                format!("t = {} s follows t = {} s", pair[1], pair[0]),
+                format!("t = {} s follows t = {} s", as_text(pair[1]), as_text(pair[0])),
                 "times must increase; write one position per file, and delete rows of an earlier run",
             ));
         }
         intervals.push(interval);
     }
-    let median = *intervals.clone().select_nth_unstable_by(times_s.len() / 2 - 1, f64::total_cmp).1;
+    let median = median(&intervals);
     match intervals.iter().position(|&interval| interval > GAP * median) {
         None => Ok(()),
         Some(i) => Err(ExternalError::file(
             file,
-            format!("gap between t = {} s and {} s; the median interval is {median} s", times_s[i], times_s[i + 1]),
+            format!(
+                "gap between t = {} s and {} s; the median interval is {} s",
+                as_text(times_s[i]),
+                as_text(times_s[i + 1]),
+                as_text(median)
+            ),
             "write the missing output, or end the file before the gap",
         )),
     }
+}
+
+/// Median of at least one value; the lower of the two middle values if their number is even.
+pub(super) fn median(values: &[f64]) -> f64 {
+    *values.to_vec().select_nth_unstable_by((values.len() - 1) / 2, f64::total_cmp).1
 }
 
 /// Value at x from `values` at increasing `xs`: linear between points, constant outside.
@@ -276,7 +311,7 @@ mod tests {
         fast.velocities_m_s[3][1] = 300.0;
         assert_eq!(
             message(fast),
-            "u.tbl: at t = 0.75 s: the velocity at z = 0.75 m is 300 m/s, above 3 sqrt(g d) = 9.396 m/s \
+            "u.tbl: at t = 0.75 s: the velocity at z = 0.75 m is 300 m/s, above 3 sqrt(g d) = 9.39628 m/s \
              in a depth of 1 m; check the unit: velocities must be in m/s"
         );
         let mut broken = table(4);

@@ -11,7 +11,7 @@ use super::super::error::ExternalError;
 use super::super::table::{Place, VelocityTable};
 use super::super::text_file::TextFile;
 use super::frame::Frame;
-use super::samples::{Sample, Vertical, in_water};
+use super::samples::{Sample, SampledSurface, Vertical, in_water};
 use super::starts::time_folders;
 
 /// Reads the velocities on the sampled line `line` at all times and leaves out points in air.
@@ -20,12 +20,16 @@ use super::starts::time_folders;
 /// If a file cannot be read, a row is wrong, or the values fail the checks of [`VelocityTable::checked`].
 pub fn read(vertical: &Vertical, line: &str, place: &Place) -> Result<VelocityTable, ExternalError> {
     let (mut times_s, mut heights_m, mut velocities_m_s) = (Vec::new(), Vec::new(), Vec::new());
+    let mut sampled = SampledSurface::default();
     for (time, folder) in time_folders(vertical.folder)? {
-        let (heights, velocities) = in_water(read_time(vertical, line, &folder)?.into_iter());
+        let samples = read_time(vertical, line, &folder)?;
+        sampled.add(&samples);
+        let (heights, velocities) = in_water(&samples);
         times_s.push(time);
         heights_m.push(heights);
         velocities_m_s.push(velocities);
     }
+    sampled.check(vertical.folder, place)?;
     let surface_z_m = vertical.surface.map(|surface| surface.at_times(&times_s)).transpose()?;
     VelocityTable { times_s, surface_z_m, heights_m, velocities_m_s }.checked(vertical.folder, place)
 }
@@ -65,7 +69,7 @@ fn read_points(frame: Frame, path: &Path, values: usize) -> Result<Vec<Point>, E
         TextFile::read(path, "sample `fields (U alpha.water)` with `setFormat raw`, and check the name of the line")?;
     let mut points: Vec<Point> = Vec::new();
     for (line, words) in text.lines().filter(|(_, words)| !words.starts_with('#')) {
-        let mut numbers = text.numbers(line, words)?;
+        let mut numbers = text.numbers_in_brackets(line, words)?;
         // A row has one coordinate along the axis, or all three coordinates.
         let coordinates = numbers.len().checked_sub(values).filter(|c| [1, 3].contains(c));
         let Some(coordinates) = coordinates else {
@@ -94,7 +98,7 @@ mod tests {
     use super::*;
     use crate::waves::external::table::Layers;
 
-    const PLACE: Place = Place { bed_z_m: 0.0, still_water_z_m: 1.0, gravity_m_s2: 9.81, layers: Layers::AtLeastTwo };
+    const PLACE: Place = Place { bed_z_m: 0.0, still_water_z_m: 0.7, gravity_m_s2: 9.81, layers: Layers::AtLeastTwo };
 
     /// Creates a folder with the same files at 0 s, 0.5 s and 1 s.
     fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
@@ -115,15 +119,18 @@ mod tests {
 
     #[test]
     fn both_layouts_and_both_kinds_of_coordinates_are_read() {
-        let u = "0.25 \t1 \t0 \t0\n0.5 \t2 \t0 \t0\n0.5 \t2 \t0 \t0\n0.75 \t9 \t0 \t0\n";
+        let u = "0.25 \t1 \t0 \t0\n0.5 \t2 \t0 \t0\n0.5 \t2 \t0 \t0\n0.75 \t6 \t0 \t0\n";
         let alpha = "0.25 \t1\n0.5 \t0.8\n0.5 \t0.8\n0.75 \t0.3\n";
         let separate = folder(&[("gauge_U.xy", u), ("gauge_alpha.water.xy", alpha)]);
         let table = lines(separate.path(), Some("alpha.water")).unwrap();
         assert_eq!(table.times_s, [0.0, 0.5, 1.0]);
         assert_eq!((&table.heights_m[2], &table.velocities_m_s[2]), (&vec![0.25, 0.5], &vec![1.0, 2.0]));
         assert_eq!(lines(separate.path(), None).unwrap().heights_m[0], [0.25, 0.5, 0.75]);
-        let joined = "3 0 0.25 1 1 0 0\n3 0 0.5 0.8 2 0 0\n3 0 0.75 0.3 9 0 0\n";
+        let joined = "3 0 0.25 1 1 0 0\n3 0 0.5 0.8 2 0 0\n3 0 0.75 0.3 6 0 0\n";
         let joined = folder(&[("gauge_alpha.water_U.xy", joined)]);
+        assert_eq!(lines(joined.path(), Some("alpha.water")).unwrap(), table);
+        let spreadsheet = "\u{feff}0,25\t1\t1D0\t0\t0\r\n0,5\t0,8\t2\t0\t0\r\n0,75\t0,3\t6\t0\t0\r\n\r\n";
+        let joined = folder(&[("gauge_alpha.water_U.xy", spreadsheet)]);
         assert_eq!(lines(joined.path(), Some("alpha.water")).unwrap(), table);
     }
 

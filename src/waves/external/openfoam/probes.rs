@@ -9,10 +9,11 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::super::error::ExternalError;
+use super::super::numbers;
 use super::super::surface::SurfaceSeries;
 use super::super::table::{Place, VelocityTable};
 use super::frame::Frame;
-use super::samples::{OUTSIDE_MESH, Sample, Vertical, in_water};
+use super::samples::{OUTSIDE_MESH, Sample, SampledSurface, Vertical, in_water};
 use super::starts::Joined;
 
 /// Largest horizontal distance between probes that count as one vertical line [m].
@@ -28,14 +29,17 @@ pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalE
     let points = Points::from_comments(&velocity, 3, probes.folder, probes.velocity)?;
     let levels_m = points.levels_m(probes)?;
     let water = probes.water.map(|name| read_water(probes.folder, name, &velocity, &points)).transpose()?;
-    let (mut heights_m, mut velocities_m_s) = (Vec::new(), Vec::new());
+    let (mut heights_m, mut velocities_m_s, mut sampled) = (Vec::new(), Vec::new(), SampledSurface::default());
     for (i, row) in velocity.rows.iter().enumerate() {
         let share = |probe: usize| water.as_ref().map_or(1.0, |rows| rows[i][probe]);
         let sample = |(probe, &z_m): (usize, &f64)| Sample { z_m, u_m_s: row[3 * probe], water: share(probe) };
-        let (heights, velocities) = in_water(levels_m.iter().enumerate().map(sample));
+        let samples: Vec<Sample> = levels_m.iter().enumerate().map(sample).collect();
+        sampled.add(&samples);
+        let (heights, velocities) = in_water(&samples);
         heights_m.push(heights);
         velocities_m_s.push(velocities);
     }
+    sampled.check(probes.folder, place)?;
     let surface_z_m = probes.surface.map(|surface| surface.at_times(&velocity.times_s)).transpose()?;
     VelocityTable { times_s: velocity.times_s, surface_z_m, heights_m, velocities_m_s }.checked(probes.folder, place)
 }
@@ -100,17 +104,22 @@ impl Points {
             None => Ok(self.0.iter().map(|&point| probes.frame.z(point)).collect()),
             Some(point) => Err(ExternalError::file(
                 probes.folder,
-                format!("the probes at {:?} and {point:?} are not on one vertical line", self.0[0]),
+                format!("the probes at {} and {} are not on one vertical line", in_words(self.0[0]), in_words(*point)),
                 "write one vertical line per function object, and check the vertical axis",
             )),
         }
     }
 }
 
+/// Formats a point for messages.
+fn in_words(point: [f64; 3]) -> String {
+    format!("({})", point.map(numbers::as_text).join(" "))
+}
+
 /// Parses the comment line of a probe. Returns its position, and true if it is inside the mesh.
 fn parse_probe(comment: &str) -> Option<([f64; 3], bool)> {
     let (position, remark) = comment.strip_prefix("Probe")?.split_once('(')?.1.split_once(')')?;
-    let numbers: Vec<f64> = position.split_whitespace().map_while(|word| word.parse().ok()).collect();
+    let numbers: Vec<f64> = position.split_whitespace().map_while(numbers::parse).collect();
     Some((numbers.try_into().ok()?, !remark.contains("Not Found")))
 }
 

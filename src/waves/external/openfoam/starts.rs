@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::super::error::ExternalError;
+use super::super::numbers::as_text;
 use super::super::text_file::TextFile;
 
 /// Rows of all starts of a run, in order of time.
@@ -51,7 +52,7 @@ impl Joined {
                 start.comments.push(comment.trim().to_owned());
                 continue;
             }
-            let mut numbers = text.numbers(line, words)?;
+            let mut numbers = text.numbers_in_brackets(line, words)?;
             let values = numbers.split_off(1.min(numbers.len()));
             let Some(&time) = numbers.first() else {
                 return Err(text.line_error(line, "no numbers", "correct or delete the line"));
@@ -66,7 +67,7 @@ impl Joined {
                 ));
             }
             if let Some(last) = start.times_s.last().filter(|&&last| time <= last) {
-                let problem = format!("t = {time} s follows t = {last} s");
+                let problem = format!("t = {} s follows t = {} s", as_text(time), as_text(*last));
                 return Err(text.line_error(line, problem, "times must increase; delete rows of another run"));
             }
             start.times_s.push(time);
@@ -143,6 +144,38 @@ mod tests {
         assert_eq!(joined.comments, ["a"]);
         assert_eq!(joined.times_s, [1.0, 2.0, 3.0, 11.0]);
         assert_eq!(joined.rows[2..], [[4.0, 0.0, 0.0], [5.0, 6.0, 7.0]]);
+    }
+
+    #[test]
+    fn files_from_other_systems_are_read_or_refused_with_their_line() {
+        let read = |bytes: &[u8]| {
+            let folder = folder(&[("0", "")]);
+            fs::write(folder.path().join("0/U"), bytes).unwrap();
+            Joined::read(folder.path(), "U").map_err(|error| error.to_string())
+        };
+        for text in [
+            "# a\n0.5 (1 0 0.25)\n1 (2 0 0)\n",
+            "\u{feff}# a\r\n0.5\t(1 0 0.25)\r\n1\t(2 0 0)\r\n\r\n",
+            "# a\n 0,5 ( 1 0 0,25 ) \n 1 ( 2 0 0 ) \n \n",
+            "# a\n5D-1 (1.0d+00 0 2.5D-01)\n1 (2 0 0)\n",
+        ] {
+            let joined = read(text.as_bytes()).unwrap();
+            assert_eq!(joined.comments, ["a"], "{text}");
+            assert_eq!(
+                (joined.times_s, joined.rows),
+                (vec![0.5, 1.0], vec![vec![1.0, 0.0, 0.25], vec![2.0, 0.0, 0.0]])
+            );
+        }
+        assert!(read(b"# 3 \xb0\n1 (1 0 0)\n").is_ok(), "the degree sign in Windows-1252");
+        for (row, problem) in [
+            ("1 (0.5 0,25 0)", "line 3: `0.5` has a decimal point, but `0,25` a comma; write decimal points only"),
+            ("1 (1,234.5 0 0)", "line 3: `1,234.5` is not a number; write decimal points, and no separators"),
+            ("1 (1; 0 0)", "line 3: `1;` is not a number; correct or delete the line"),
+            ("1 (1 0 0) (2", "line 3: 4 numbers after the time, expected 3; correct or delete the line"),
+        ] {
+            let error = read(format!("# a\n0 (1 0 0)\n{row}\n").as_bytes()).err().unwrap();
+            assert!(error.contains(problem), "{error}");
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::TableFile;
 use crate::waves::external::error::ExternalError;
-use crate::waves::external::text_file::TextFile;
+use crate::waves::external::text_file::{TextFile, words};
 
 /// Meaning of a column of a SWASH table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +19,15 @@ pub enum Column {
     VelkX(usize),
     /// Any other column, such as velocities along y; its values need not be numbers.
     Ignored,
+}
+
+/// Times of the rows of a table without a column of times: the first time, and then the same interval between all rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowTimes {
+    /// Time of the first row [s].
+    pub first_s: f64,
+    /// Time between two rows [s].
+    pub interval_s: f64,
 }
 
 /// Returns the columns of the table `TSEC VELK` for a number of layers.
@@ -43,20 +52,40 @@ impl Table {
         let text = TextFile::read(file.path, "give the path of a SWASH table")?;
         let mut columns = file.columns.to_vec();
         let mut rows = Vec::new();
-        for (line, words) in text.lines() {
-            if let Some(comment) = words.strip_prefix('%') {
-                columns = parse_header(comment).unwrap_or(columns);
-            } else if words.starts_with("SWASH") {
+        for (line, row) in text.lines() {
+            // The command `OUTPUT OPTIONS` of SWASH can change the comment character.
+            let comment = row.strip_prefix(['%', '#', '!', '$']);
+            let names = comment.or_else(|| rows.is_empty().then_some(row)).and_then(parse_header);
+            if let Some(names) = names {
+                if file.columns.is_empty() {
+                    columns = names;
+                }
+            } else if row.starts_with("SWASH") {
                 let problem = "the format of TABLE ... SWASH is not supported";
                 return Err(text.line_error(line, problem, "write the table with HEADER or NOHEADER"));
-            } else if columns.is_empty() {
+            } else if comment.is_none() && columns.is_empty() {
                 let advice = "list the columns in file order, or write with HEADER";
                 return Err(text.line_error(line, "no header with the column names", advice));
-            } else {
-                rows.push(parse_row(&text, line, words, &columns)?);
+            } else if comment.is_none() {
+                rows.push(parse_row(&text, line, row, &columns)?);
             }
         }
         Ok(Self { path: text.path().to_owned(), columns, rows })
+    }
+
+    /// Returns true if the table has the column.
+    pub(super) fn has(&self, column: Column) -> bool {
+        self.columns.contains(&column)
+    }
+
+    /// Times of the rows [s]: the column `Tsec`, or `row_times` if the table does not have it.
+    pub(super) fn times_s(&self, row_times: Option<RowTimes>) -> Result<Vec<f64>, ExternalError> {
+        match row_times {
+            Some(RowTimes { first_s, interval_s }) if !self.has(Column::Tsec) => {
+                Ok((0..self.rows.len()).map(|row| first_s + interval_s * row as f64).collect())
+            }
+            _ => self.column(Column::Tsec),
+        }
     }
 
     /// Values of a column, one per row; an error if the table does not have the column.
@@ -68,31 +97,53 @@ impl Table {
                     Column::Tsec => ("column `Tsec`".to_owned(), "TSEC"),
                     Column::Watl => ("column `Watlev`".to_owned(), "WATL"),
                     Column::VelkX(layer) => (format!("velocity of layer {layer}"), "VELK"),
-                    Column::VelX | Column::Ignored => ("velocities".to_owned(), "VELK or VKSIK"),
+                    Column::VelX | Column::Ignored => ("depth-averaged velocity".to_owned(), "VEL or VKSI"),
                 };
-                let advice = format!("add {keyword} to the TABLE command");
+                let mut advice = format!("add {keyword} to the TABLE command");
+                if column == Column::Tsec {
+                    advice += ", or write `row_interval_s` in `wave.source`, the time in seconds between two rows";
+                }
                 Err(ExternalError::file(&self.path, format!("no {name}"), advice))
             }
         }
     }
 
-    /// Velocities along x, one list per layer from the surface downwards; one list if they are depth-averaged.
+    /// Velocities along x of at least two layers, one list per layer from the surface downwards.
     pub(super) fn layers(&self) -> Result<Vec<Vec<f64>>, ExternalError> {
+        match self.layer_count() {
+            0 if !self.has(Column::VelX) => {
+                let advice = "add VELK or VKSIK to the TABLE command";
+                Err(ExternalError::file(&self.path, "no velocities", advice))
+            }
+            0 | 1 => {
+                let advice = "write VELK of at least 2 layers; for long waves, allow depth-averaged velocities with \
+                              `\"depth_averaged\": true` in `wave.source`";
+                Err(ExternalError::file(&self.path, "the velocities are depth-averaged", advice))
+            }
+            layers => (1..=layers).map(|layer| self.column(Column::VelkX(layer))).collect(),
+        }
+    }
+
+    /// Depth-averaged velocities along x; the velocity of a single layer is depth-averaged too.
+    pub(super) fn depth_averaged(&self) -> Result<Vec<f64>, ExternalError> {
+        self.column(if self.layer_count() == 1 { Column::VelkX(1) } else { Column::VelX })
+    }
+
+    /// Number of layers with velocities.
+    fn layer_count(&self) -> usize {
         let numbers = self.columns.iter().filter_map(|column| match column {
             Column::VelkX(layer) => Some(*layer),
             _ => None,
         });
-        match numbers.max() {
-            Some(layers) => (1..=layers).map(|layer| self.column(Column::VelkX(layer))).collect(),
-            None => Ok(vec![self.column(Column::VelX)?]),
-        }
+        numbers.max().unwrap_or(0)
     }
 }
 
 /// Returns the columns that a header line names; `None` if it names no known column.
 fn parse_header(comment: &str) -> Option<Vec<Column>> {
     let mut columns = Vec::new();
-    for name in comment.split_whitespace() {
+    let separates = |c: char| c.is_whitespace() || c == ';' || c == ',';
+    for name in comment.split(separates).filter(|name| !name.is_empty()) {
         let name = name.to_ascii_lowercase();
         let column = match name.as_str() {
             "tsec" => Column::Tsec,
@@ -111,8 +162,8 @@ fn parse_header(comment: &str) -> Option<Vec<Column>> {
 }
 
 /// Parses the values of a row.
-fn parse_row(text: &TextFile, line: usize, words: &str, columns: &[Column]) -> Result<Vec<f64>, ExternalError> {
-    let words: Vec<&str> = words.split_whitespace().collect();
+fn parse_row(text: &TextFile, line: usize, row: &str, columns: &[Column]) -> Result<Vec<f64>, ExternalError> {
+    let words = words(row, columns.len());
     if words.len() != columns.len() {
         return Err(text.line_error(
             line,
@@ -120,11 +171,11 @@ fn parse_row(text: &TextFile, line: usize, words: &str, columns: &[Column]) -> R
             "correct the line, or list the columns in file order (VELK: x of every layer, then y of every layer)",
         ));
     }
-    let value = |(word, column): (&&str, &Column)| match column {
-        Column::Ignored => Ok(f64::NAN),
-        _ => text.number(line, word),
-    };
-    words.iter().zip(columns).map(value).collect()
+    let is_used = |column: &Column| *column != Column::Ignored;
+    let used: Vec<&str> =
+        words.into_iter().zip(columns).filter(|(_, column)| is_used(column)).map(|(word, _)| word).collect();
+    let mut values = text.numbers(line, &used)?.into_iter().peekable();
+    Ok(columns.iter().map(|column| values.next_if(|_| is_used(column)).unwrap_or(f64::NAN)).collect())
 }
 
 #[cfg(test)]
