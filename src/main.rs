@@ -2,6 +2,7 @@
 
 fn main() -> std::process::ExitCode {
     restore_default_sigpipe();
+    silence_device_selection();
     breakwater::cli::main()
 }
 
@@ -15,3 +16,12 @@ fn restore_default_sigpipe() {
 
 #[cfg(not(unix))]
 fn restore_default_sigpipe() {}
+
+/// Switches off a Vulkan layer of Mesa that reorders the graphics cards. It prints an error about XDG_RUNTIME_DIR on
+/// machines without a screen, and the option --device chooses the card anyway.
+fn silence_device_selection() {
+    if std::env::var_os("MESA_VK_DEVICE_SELECT").is_none() {
+        // SAFETY: no other thread runs yet.
+        unsafe { std::env::set_var("NODEVICE_SELECT", "1") };
+    }
+}

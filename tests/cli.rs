@@ -448,7 +448,7 @@ fn compare_and_report_refuse_a_folder_without_a_run() {
     let message = refuse(&["report", path(folder.path())]);
     assert!(message.contains("case.json"), "{message}");
     let message = refuse(&["compare", path(folder.path()), "--reference", "cases/fudo/reference"]);
-    assert!(message.contains("summary.json"), "{message}");
+    assert!(message.contains("case.json"), "{message}");
 }
 
 /// A failed write ends the run with a message that names the file.
@@ -532,4 +532,46 @@ fn openfoam_tool_writes_the_flume_case() {
     let driven: Value = serde_json::from_str(&read("H4.5-slice-openfoam.json")).unwrap();
     assert_eq!(driven["wave"]["source"]["format"], "openfoam");
     assert_eq!(driven["wave"]["source"]["water"], "alpha.water");
+}
+
+#[test]
+fn a_folder_of_another_kind_is_named_with_the_command_that_fits() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let write = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+        std::fs::write(file, text).unwrap();
+    };
+    write("sweep/sweep.csv", "run\n");
+    write("wave/wave.html", "<html>\n");
+    write("reference/reference.json", "{}");
+    write("other/notes.txt", "notes\n");
+    let drop = include_str!("../cases/tutorial/drop.json");
+    // A run that was stopped before its first checkpoint, and one after it.
+    write("begun/case.json", drop);
+    write("stopped/case.json", drop);
+    write("stopped/checkpoint.json", "{}");
+    write("dry/case.json", drop);
+    write("dry/summary.json", "{}");
+    let expected = [
+        ("none", "there is no such folder"),
+        ("sweep", "is the folder of a sweep; give one of its subfolders"),
+        ("wave", "has the results of breakwater wave, see wave.html"),
+        ("reference", "is a folder with measurements; compare a run with it: breakwater compare RUN --reference DIR"),
+        ("other", "is not the folder of a run, because case.json is missing"),
+        ("begun", "the run has not finished and has no checkpoint; start it again"),
+        ("stopped", "the run has not finished; continue it with: breakwater resume"),
+    ];
+    for (name, reason) in expected {
+        for command in ["report", "compare"] {
+            let message = refuse(&[command, &at(name)]);
+            assert!(message.contains(reason), "{command} {name}: {message}");
+        }
+    }
+    for name in ["none", "sweep", "wave", "reference", "other"] {
+        assert!(!refuse(&["resume", &at(name)]).is_empty());
+    }
+    assert!(refuse(&["report", &at("dry")]).contains("the run is a dry test, which has no report"));
+    assert!(refuse(&["compare", &at("dry")]).contains("is a dry test, which has no wave"));
 }

@@ -289,3 +289,32 @@ fn depth_averaged_velocity_is_read_if_allowed() {
     // c H / (d + H) = sqrt(9.81 0.55) 0.05 / 0.55 at all levels, with 6 decimals.
     assert!(largest_velocities(&case_with_wave(&source)).iter().all(|u| (u - 0.211_166).abs() < 1e-6));
 }
+
+#[test]
+fn a_flume_case_without_units_may_keep_the_material_of_the_ground() {
+    let wave = include_str!("../cases/tutorial/wave-alone.json");
+    let mut keys: serde_json::Value = serde_json::from_str(wave).unwrap();
+    keys.as_object_mut().unwrap().remove("reference");
+    keys["flume"]["material"] = "bed".into();
+    let case = Case::from_str(&keys.to_string(), "wave.json").unwrap_or_else(|errors| panic!("{errors}"));
+    assert!(case.warnings.iter().any(|w| w == "flume.material = \"bed\": has no effect without units"));
+}
+
+#[test]
+fn quaternions_of_three_digits_are_normalised() {
+    let text = include_str!("../cases/tutorial/drop.json");
+    let mut keys: serde_json::Value = serde_json::from_str(text).unwrap();
+    let units = keys["units"].as_object_mut().unwrap();
+    ["count", "pitch_m", "x_m"].iter().for_each(|key| drop(units.remove(*key)));
+    let read = |quaternion: [f64; 4]| {
+        let mut keys = keys.clone();
+        keys["units"]["poses"] = serde_json::json!([{ "centre_m": [0.0, 0.2, 0.2], "quaternion_xyzw": quaternion }]);
+        DryTestCase::from_str(&keys.to_string(), "drop.json")
+    };
+    for quaternion in [[0.5, 0.5, 0.5, 0.5], [0.707, 0.0, 0.0, 0.707], [0.183, 0.365, 0.548, 0.73]] {
+        let rotation = read(quaternion).unwrap_or_else(|errors| panic!("{errors}")).units.placements[0].rotation;
+        assert!((rotation.length() - 1.0).abs() < 1e-15, "{rotation}");
+    }
+    let message = read([0.7, 0.0, 0.0, 0.7]).unwrap_err().to_string();
+    assert!(message.contains("quaternion_xyzw = of length 0.989949"), "{message}");
+}

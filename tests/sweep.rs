@@ -188,3 +188,17 @@ fn invalid_sweeps_are_refused_before_any_run_starts() {
         }
     }
 }
+
+#[test]
+fn a_key_that_is_varied_twice_is_refused() {
+    let vary = json!([
+        { "key": "numerics.cfl", "values": [0.1, 0.2] },
+        { "key": "domain.dp_m", "values": [0.05] },
+        { "key": "numerics.cfl", "values": [0.3] }
+    ]);
+    let (folder, sweep) = sweep_of(&vary);
+    let refused = run(&sweep, &folder.path().join("out"));
+    let message = String::from_utf8_lossy(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(message.contains("vary[2]: numerics.cfl is varied twice"), "{message}");
+}

@@ -4,8 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::CommandError;
-use crate::{case::Reference, report::compare::compare};
+use super::{CommandError, input::finished_run};
+use crate::{
+    case::{InputKind, Reference},
+    report::compare::compare,
+};
 
 /// Compare finished runs with measurements: displacement of each unit, mean displacement, damage ratio.
 #[derive(Args)]
@@ -25,6 +28,14 @@ pub struct CompareArguments {
 impl CompareArguments {
     pub(super) fn execute(self) -> Result<(), CommandError> {
         let first = &self.dirs[0];
+        for dir in &self.dirs {
+            let what = match finished_run(dir)? {
+                InputKind::DryTest => "is a dry test, which has no wave; compare runs of flume cases",
+                InputKind::Fracture => "is a fracture run; compare runs of flume cases",
+                _ => continue,
+            };
+            return Err(CommandError::refused(format!("{}: {what}", dir.display())));
+        }
         let folder = self.reference.clone().or_else(|| Reference::folder_of_run(first)).ok_or_else(|| {
             let what = "has no case.json that names a folder with measurements; give one with --reference DIR";
             CommandError::refused(format!("{}: {what}", first.display()))

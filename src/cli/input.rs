@@ -3,7 +3,11 @@
 use std::path::Path;
 
 use super::CommandError;
-use crate::case::{Document, InputFile, InputKind};
+use crate::{
+    case::{Document, InputFile, InputKind, Reference},
+    output::Summary,
+    simulation::{dry_test::recorder::DryTestRecorder, flume::outputs::checkpoint::Checkpoint},
+};
 
 /// Reads an input file. A file whose kind is not in `accepted` is refused before validation.
 pub(super) fn read(path: &Path, accepted: &[InputKind]) -> Result<Document, CommandError> {
@@ -31,10 +35,42 @@ pub(super) fn read_run(dir: &Path, accepted: &[InputKind]) -> Result<Document, C
     }
     let file = dir.join("case.json");
     if !file.exists() {
-        let what = "is not the folder of a run, because case.json is missing";
-        return Err(CommandError::refused(format!("{}: {what}", dir.display())));
+        return Err(CommandError::refused(format!("{}: {}", dir.display(), without_case(dir))));
     }
     read(&file, accepted)
+}
+
+/// Describes a folder without case.json, and names the command that fits.
+fn without_case(dir: &Path) -> &'static str {
+    let has = |name: &str| dir.join(name).exists();
+    match () {
+        () if !dir.exists() => "there is no such folder; breakwater run writes its results into runs/NAME by default",
+        () if has("sweep.csv") => "is the folder of a sweep; give one of its subfolders, each the folder of a run",
+        () if has("wave.html") => "has the results of breakwater wave, see wave.html; breakwater run computes the case",
+        () if has(Reference::FILE) => {
+            "is a folder with measurements; compare a run with it: breakwater compare RUN --reference DIR"
+        }
+        () => "is not the folder of a run, because case.json is missing",
+    }
+}
+
+/// Returns the kind of the run in the folder `dir`. Refuses a run that has not finished, and names the command that
+/// continues it.
+pub(super) fn finished_run(dir: &Path) -> Result<InputKind, CommandError> {
+    let kind = read_run(dir, &[InputKind::Flume, InputKind::DryTest, InputKind::Fracture])?.kind();
+    if dir.join(Summary::FILE).exists() {
+        return Ok(kind);
+    }
+    let checkpoint = match kind {
+        InputKind::DryTest => DryTestRecorder::CHECKPOINT,
+        _ => Checkpoint::FILE,
+    };
+    let what = if dir.join(checkpoint).exists() {
+        format!("the run has not finished; continue it with: breakwater resume {}", dir.display())
+    } else {
+        "the run has not finished and has no checkpoint; start it again".to_owned()
+    };
+    Err(CommandError::refused(format!("{}: {what}", dir.display())))
 }
 
 /// Reads and validates the case of a run, and prints its warnings.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CommandError, input::read_run};
+use super::{CommandError, input::finished_run};
 use crate::{
     case::InputKind,
     report::{fracture::write_fracture_report, run::write_report},
@@ -19,8 +19,7 @@ pub struct ReportArguments {
 
 impl ReportArguments {
     pub(super) fn execute(self) -> Result<(), CommandError> {
-        let kind = read_run(&self.dir, &[InputKind::Flume, InputKind::DryTest, InputKind::Fracture])?.kind();
-        let write = match kind {
+        let write = match finished_run(&self.dir)? {
             InputKind::Fracture => write_fracture_report,
             InputKind::DryTest => {
                 let what = "the run is a dry test, which has no report; see summary.json and units.csv";

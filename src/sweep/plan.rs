@@ -112,6 +112,11 @@ impl Sweep {
         if varied.is_empty() {
             return Err(content("vary: must contain at least one key".to_owned()));
         }
+        let repeated = varied.iter().enumerate().find(|(k, one)| varied[..*k].iter().any(|other| other.key == one.key));
+        if let Some((k, one)) = repeated {
+            let what = "is varied twice; write all of its values in one entry";
+            return Err(content(format!("vary[{k}]: {} {what}", one.key)));
+        }
         let given = base.clone();
         let set_alone = file.set.keys().filter(|key| varied.iter().all(|one| one.key != **key));
         let keys: Vec<&str> = set_alone.chain(varied.iter().map(|one| &one.key)).map(String::as_str).collect();

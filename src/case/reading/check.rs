@@ -98,23 +98,50 @@ impl Range {
     fn text(self) -> String {
         let low = if self.low_open { ">" } else { "at least" };
         let high = if self.high_open { "<" } else { "at most" };
-        format!("{low} {} and {high} {}", as_text(self.low), as_text(self.high))
+        format!("{low} {} and {high} {}", rounded_limit(self.low, true), rounded_limit(self.high, false))
     }
 }
 
-/// Formats a number for messages, with at most six decimals.
+/// Formats a limit for messages, rounded into the allowed range: upwards or downwards.
+fn rounded_limit(limit: f64, upwards: bool) -> String {
+    let text = as_text(limit);
+    let shown: f64 = text.parse().unwrap_or(limit);
+    if shown == limit || (shown > limit) == upwards {
+        return text;
+    }
+    // Move the last digit of the text by one.
+    let decimals = text.split_once('.').map_or(0, |(_, digits)| digits.len() as i32);
+    let step = 10_f64.powi(-decimals);
+    if text.contains('e') { limit.to_string() } else { as_text(if upwards { shown + step } else { shown - step }) }
+}
+
+/// Formats a number for messages, with at most six significant digits and six decimals. Integers keep all digits.
 pub fn as_text(value: f64) -> String {
     if value == 0.0 || (1e-4..1e7).contains(&value.abs()) {
         // Six decimals are enough for any case file and hide the rounding errors of derived values.
-        format!("{}", (value * 1e6).round() / 1e6)
+        let decimals = 5 - value.abs().max(0.1).log10().floor() as i32;
+        let shift = 10_f64.powi(decimals.max(0));
+        format!("{}", (value * shift).round() / shift)
     } else {
-        format!("{value:e}")
+        // Rounding to six digits; the second conversion removes trailing zeros.
+        let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+        format!("{rounded:e}")
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_rounded_and_limits_stay_inside_the_range() {
+        let texts = [1.418503, 0.166667, 36.5123456, 123456.0, 2.0000000000000004e10, 1e-7 / 3.0].map(as_text);
+        assert_eq!(texts, ["1.4185", "0.166667", "36.5123", "123456", "2e10", "3.33333e-8"]);
+        let range = at_least(1.0 / 6.0).up_to(2.0 / 3.0);
+        assert_eq!(range.text(), "at least 0.166667 and at most 0.666666");
+        assert!(range.contains(0.166667) && range.contains(0.666666));
+        assert_eq!(at_least(0.1).up_to(0.3).text(), "at least 0.1 and at most 0.3");
+    }
 
     #[test]
     fn error_for_a_number_names_file_path_value_and_range() {

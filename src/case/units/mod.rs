@@ -25,7 +25,7 @@ use self::contact::Contact;
 use self::materials::Materials;
 pub use self::pose::UnitPose;
 use self::shape::{UnitKind, UnitShape};
-use super::file::{PoseFile, Sides, UnitsFile};
+use super::file::{Orientation, PoseFile, Sides, UnitsFile};
 use super::flume::site::Site;
 use super::reading::check::{Checker, as_text, more_than};
 use crate::rigid::Resistance;
@@ -171,6 +171,9 @@ fn place(
             "run `breakwater place` on the case and add the `placement_file` that it writes",
         );
         return None;
+    }
+    if posed && file.orientation != Orientation::default() {
+        check.warn("units.orientation: has no effect on units with `poses` or a `placement_file`");
     }
     let is_row = file.centres_m.is_none() && !posed;
     let row = if is_row { Some(row::validate(file, shape, check)?) } else { None };

@@ -11,9 +11,9 @@ use crate::case::file::{Sides, UnitsFile};
 use crate::case::flume::site::Site;
 use crate::case::reading::check::{Checker, as_text};
 
-/// Largest allowed size of the x and z components of the quaternion of a unit [-]. The limit allows for rounding to six
+/// Largest allowed size of the x and z components of the quaternion of a unit [-]. The limit allows for rounding to three
 /// digits in the case file.
-const ROUNDING: f64 = 1e-6;
+const ROUNDING: f64 = 1e-3;
 
 /// Refuses units that are not cuboids. Refuses rows, because a row has several units across the flume.
 pub fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check: &mut Checker) {

@@ -10,8 +10,9 @@ use crate::case::flume::site::Site;
 use crate::case::reading::check::{Checker, as_text};
 use crate::case::reading::document::Document;
 
-/// Tolerance on the length of a quaternion [-]. It allows for rounding to seven digits in the file.
-const ROUNDING: f64 = 1e-6;
+/// Tolerance on the length of a quaternion [-]. It allows for rounding to three digits in the file; the quaternion is
+/// then normalized.
+const ROUNDING: f64 = 1e-3;
 
 /// Places the units at the poses in the case file, or in the placement file that it names. The path of the placement
 /// file is relative to the folder of the case file.

@@ -10,6 +10,9 @@ use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::geometry::armour_unit::{ArmourUnit, ArmourUnitError};
 
 /// Largest allowed ratio of the longest to the shortest edge of a cuboid [-]. The rounding radius of the edges is
+/// Smallest and largest allowed length of a unit [m].
+const SMALLEST: f64 = 0.005;
+const LARGEST: f64 = 20.0;
 /// proportional to the height, and must be small compared with the shortest edge.
 const LARGEST_EDGE_RATIO: f64 = 5.0;
 
@@ -165,7 +168,10 @@ pub fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut C
             }
         },
         Shape::Stl => match &file.stl {
-            Some(stl) => stl::validate(stl, rounding_share, name, check).map(UnitKind::Stl),
+            Some(stl) => {
+                let unit = stl::validate(stl, rounding_share, name, check)?;
+                check_stl_size(&unit, stl.scale, check).then_some(UnitKind::Stl(unit))
+            }
             None => {
                 check.reject("units.stl", "(missing)", "the STL files of the unit", "write \"stl\": { \"path\": ... }");
                 None
@@ -239,8 +245,24 @@ fn validate_cuboid(edges: [f64; 3], check: &mut Checker) -> Option<UnitKind> {
     (check.count() == before).then_some(UnitKind::Cuboid { edges })
 }
 
+/// Checks the size of a unit from an STL file: a wrong size probably means a wrong unit of length.
+fn check_stl_size(unit: &StlUnit, scale: f64, check: &mut Checker) -> bool {
+    let [low, high] = unit.solid().bounds();
+    let size = (high - low).max_element();
+    let fits = (SMALLEST..=LARGEST).contains(&size);
+    if !fits {
+        check.reject(
+            "units.stl.path",
+            format!("a unit of {} m with `units.stl.scale` = {}", as_text(size), as_text(scale)),
+            format!("a unit of {SMALLEST} to {LARGEST} m"),
+            "write `scale` 0.001 for a file in millimetres, 1 for a file in metres",
+        );
+    }
+    fits
+}
+
 fn check_length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bool {
-    check.number(path, value, at_least(0.005).up_to(20.0), "m", advice)
+    check.number(path, value, at_least(SMALLEST).up_to(LARGEST), "m", advice)
 }
 
 /// Validates the mass of a unit [kg]: its density must be between 100 and 20,000 kg/m3. `rho0` is the water density

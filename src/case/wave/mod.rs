@@ -154,6 +154,15 @@ impl Surroundings<'_> {
         Some(flume.still_depth(self.domain?.x[0]))
     }
 
+    /// Returns the bed level where the wave is generated [m].
+    fn bed_z(&self) -> Option<f64> {
+        let flume = self.flume?;
+        if self.wavemaker.is_ml_piston() {
+            return Some(flume.still_water_level - flume.offshore_depth());
+        }
+        Some(flume.profile.z(self.domain?.x[0]))
+    }
+
     /// Returns the still water depth where the wave is generated [m]. Adds an error if the ground there is dry.
     fn wet_depth(&self, check: &mut Checker) -> Option<f64> {
         let depth = self.depth()?;

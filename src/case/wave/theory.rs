@@ -17,7 +17,7 @@ pub(super) fn solitary(file: &SolitaryFile, around: &Surroundings, check: &mut C
         check.reject(
             "flume.still_water_level_m",
             as_text(flume.still_water_level),
-            format!("above the bed where the wave is generated, {} m", as_text(flume.still_water_level - depth)),
+            format!("above the bed where the wave is generated, {} m", as_text(around.bed_z()?)),
             "raise the still water level: the wave must be generated in water",
         );
         return None;

@@ -61,7 +61,10 @@ fn finish(ended: Result<DryTestSummary, RunError>, dir: &Path) -> Result<DryTest
         summary.stopped
     );
     for unit in summary.units.iter().take(MOST_LINES) {
-        print!("  unit {:2}: moved {:.4} m, turned {:.1} degrees", unit.unit, unit.moved_m, unit.turned_deg);
+        print!(
+            "  unit {:2}: moved {:.4} m, sank {:.4} m, turned {:.1} degrees",
+            unit.unit, unit.moved_m, unit.sank_m, unit.turned_deg
+        );
         match (unit.slides_at_deg, unit.friction) {
             (Some(angle), Some(friction)) => println!(", slides at {angle:.2} degrees, tangent {friction:.4}"),
             _ => println!(),

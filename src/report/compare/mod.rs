@@ -154,13 +154,13 @@ impl WaveComparison {
     /// Describes the wave: `Solitary wave, H = 0.045 m`.
     fn title(&self) -> String {
         let ReferenceWave { kind, height_m, period_s, .. } = &self.reference;
-        let kind = match kind {
-            ReferenceWaveKind::Solitary => "Solitary wave",
-            ReferenceWaveKind::Regular => "Regular waves",
-            ReferenceWaveKind::Irregular => "Irregular waves",
+        let (kind, symbol) = match kind {
+            ReferenceWaveKind::Solitary => ("Solitary wave", "H"),
+            ReferenceWaveKind::Regular => ("Regular waves", "H"),
+            ReferenceWaveKind::Irregular => ("Irregular waves", "H_s"),
         };
         let period = period_s.map(|period| format!(", T = {period} s")).unwrap_or_default();
-        format!("{kind}, H = {height_m} m{period}")
+        format!("{kind}, {symbol} = {height_m} m{period}")
     }
 
     /// Deviation of a published simulation from the measured mean displacement [%]; `None` for a measurement.

@@ -113,7 +113,7 @@ impl Job<'_> {
         let event = &self.blow.impact.event;
         let on = match event.partner_unit() {
             Some(unit) => format!("unit {}", unit + 1),
-            None => "the bed".to_owned(),
+            None => "the bed or a wall".to_owned(),
         };
         let way = match self.way {
             RerunMethod::LoadHistory => ", recorded forces",

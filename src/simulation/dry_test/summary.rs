@@ -60,8 +60,10 @@ pub struct DryUnit {
     pub start_m: [f64; 3],
     /// Centre at the end [m].
     pub end_m: [f64; 3],
-    /// Displacement of the centre [m].
+    /// Horizontal displacement of the centre, as in flume runs [m].
     pub moved_m: f64,
+    /// Height by which the centre sank [m]; negative if it rose.
+    pub sank_m: f64,
     /// Rotation from start to end [degrees].
     pub turned_deg: f64,
     /// Slope at which the unit began to slide in a tilt test [degrees].
@@ -86,7 +88,8 @@ impl DryTestSummary {
                 unit: number + 1,
                 start_m: start.position.to_array(),
                 end_m: end.position.to_array(),
-                moved_m: (end.position - start.position).length(),
+                moved_m: (end.position - start.position).truncate().length(),
+                sank_m: start.position.z - end.position.z,
                 turned_deg: start.rotation.angle_between(end.rotation).to_degrees(),
                 slides_at_deg: slides_at.map(f64::to_degrees),
                 friction: slides_at.map(f64::tan),
