@@ -8,7 +8,8 @@ use super::{DryTest, Measured};
 use crate::{
     case::{BreakageSettings, SiteTerrain},
     output::{
-        Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, UnitSurface, columns, is_due, write_atomically,
+        Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, UnitSurface, checksum::checksum, columns,
+        is_due, state_file::DAMAGED, write_atomically,
     },
     rigid::{ContactEvent, RigidSnapshot},
     simulation::flume::outputs::snapshots::{Frame, UNIT_FIELDS},
@@ -35,7 +36,22 @@ struct Checkpoint {
 }
 
 /// Version of the checkpoint layout; increased when the layout changes.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
+
+/// A checkpoint as it is stored. A damaged number can be valid JSON, so that only the checksum reveals the damage.
+#[derive(Debug, Serialize, Deserialize)]
+struct Stored {
+    checksum: String,
+    state: Checkpoint,
+}
+
+impl Stored {
+    /// Returns the checksum of the state as JSON text. This text is the same after writing and reading.
+    fn checksum(state: &Checkpoint) -> serde_json::Result<String> {
+        let sum = checksum(serde_json::to_vec(state)?.as_slice()).map_err(serde_json::Error::io)?;
+        Ok(format!("{sum:016x}"))
+    }
+}
 
 const UNITS_FILE: &str = "units.csv";
 const CONTACTS_FILE: &str = "contacts.csv";
@@ -98,7 +114,7 @@ impl DryTestRecorder {
     pub fn reopen(run: &mut DryTest, dir: &Path) -> Result<Self, OutputError> {
         let path = dir.join(Self::CHECKPOINT);
         let bytes = std::fs::read(&path).map_err(OutputError::io(&path))?;
-        let state: Checkpoint = serde_json::from_slice(&bytes).map_err(OutputError::json(&path))?;
+        let Stored { checksum: written, state } = serde_json::from_slice(&bytes).map_err(OutputError::json(&path))?;
         if state.version != VERSION {
             let what = format!(
                 "was written by another version of breakwater (layout {} instead of {VERSION}); rerun the case",
@@ -106,12 +122,16 @@ impl DryTestRecorder {
             );
             return Err(OutputError::content(&path, what));
         }
+        if written != Stored::checksum(&state).map_err(OutputError::json(&path))? {
+            return Err(OutputError::content(&path, DAMAGED));
+        }
         if state.case_hash != run.case.hash {
             return Err(OutputError::content(&path, "belongs to another case than case.json in its folder".to_owned()));
         }
         run.world.restore(&state.world).map_err(|error| OutputError::content(&path, error.to_string()))?;
         run.measured = state.measured;
-        let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
+        let table =
+            |file: &str, columns: &[&str], bytes: u64| CsvSeries::open_truncated(&dir.join(file), columns, bytes);
         let counts = state.counts;
         let surfaces = |_| {
             let steps = counts.surfaces as usize;
@@ -119,9 +139,9 @@ impl DryTestRecorder {
         };
         Ok(Self {
             dir: dir.to_owned(),
-            units: table(UNITS_FILE, counts.bytes[0])?,
-            contacts: table(CONTACTS_FILE, counts.bytes[1])?,
-            energy: table(ENERGY_FILE, counts.bytes[2])?,
+            units: table(UNITS_FILE, &columns::UNITS, counts.bytes[0])?,
+            contacts: table(CONTACTS_FILE, &columns::CONTACTS, counts.bytes[1])?,
+            energy: table(ENERGY_FILE, &columns::DRY_ENERGY, counts.bytes[2])?,
             surfaces: run.case.output.units_interval.map(surfaces).transpose()?,
             counts,
         })
@@ -182,7 +202,8 @@ impl DryTestRecorder {
             measured: run.measured.clone(),
             counts: self.counts.clone(),
         };
-        let bytes = serde_json::to_vec(&state).map_err(OutputError::json(&path))?;
+        let checksum = Stored::checksum(&state).map_err(OutputError::json(&path))?;
+        let bytes = serde_json::to_vec(&Stored { checksum, state }).map_err(OutputError::json(&path))?;
         write_atomically(&path, &bytes)
     }
 

@@ -69,7 +69,7 @@ impl DetailRecorder {
             Ok::<_, OutputError>((interval, series))
         };
         Ok(Self {
-            cracks: CsvSeries::open_truncated(&dir.join(CRACKS_FILE), lengths.cracks_bytes)?,
+            cracks: CsvSeries::open_truncated(&dir.join(CRACKS_FILE), &columns::CRACKS, lengths.cracks_bytes)?,
             recorded: lengths.cracks,
             section: case.surfaces_interval.map(section).transpose()?.map(|series| (cut(case), series)),
             tets: case.tets_interval.map(tets).transpose()?,

@@ -17,7 +17,7 @@ use crate::simulation::flume::{
 use crate::{
     output::{
         FluidAtPeak, OutputError,
-        state_file::{Hdf5Result, read_state, read_vectors, write_column, write_state, write_vectors},
+        state_file::{Hdf5Result, read_unchanged_state, read_vectors, write_column, write_state, write_vectors},
     },
     rigid::{Load, RigidSnapshot},
     sph::particles::water::Water,
@@ -107,7 +107,7 @@ impl Checkpoint {
 /// Returns the name of the device that computed the run in `dir`; `None` if the checkpoint cannot be read.
 pub fn device_of(dir: &Path) -> Option<String> {
     let path = dir.join(Checkpoint::FILE);
-    let (text, ()) = read_state(&path, |_| Ok(())).ok()?;
+    let (text, ()) = read_unchanged_state(&path, |_| Ok(())).ok()?;
     parse::<Scalars>(&text, &path).ok().map(|scalars| scalars.device)
 }
 
@@ -137,7 +137,7 @@ pub fn read_of(simulation: &mut Simulation, dir: &Path, case_hash: &str) -> Resu
 impl Checkpoint {
     fn read(dir: &Path) -> Result<Self, OutputError> {
         let path = dir.join(Self::FILE);
-        let (text, (water, boundary_density, water_at_impacts)) = read_state(&path, read_arrays)?;
+        let (text, (water, boundary_density, water_at_impacts)) = read_unchanged_state(&path, read_arrays)?;
         let scalars: Scalars = parse(&text, &path)?;
         if scalars.version != VERSION {
             let what = format!(
