@@ -253,3 +253,37 @@ impl DryTestRecorder {
         Frame::of_surfaces(solid, run.world.states(), run.world.time()).append_to(series)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::case::DryTestCase;
+
+    const CASE: &str = r#"{
+        "title": "A cube on level ground", "dry_test": { "kind": "settle" },
+        "flume": { "bed_m": [[0.0, 0.0], [1.0, 0.0]], "material": "mortar" },
+        "domain": { "x_m": [0.0, 1.0], "width_m": 1.0, "sides": "walls", "top_z_m": 1.0 },
+        "units": { "shape": "cuboid", "size_m": [0.1, 0.1, 0.1], "mass_kg": 2.3, "material": "mortar",
+            "poses": [{ "centre_m": [0.5, 0.5, 0.125] }] },
+        "materials": [{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
+        "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.65 }],
+        "stop": { "duration_s": 1.0 }
+    }"#;
+
+    #[test]
+    fn a_checkpoint_with_a_changed_number_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let case = Arc::new(DryTestCase::from_str(CASE, "cube.json").unwrap());
+        let mut run = DryTest::new(case).unwrap();
+        let recorder = DryTestRecorder::create(&run, folder.path()).unwrap();
+        recorder.record_state(&run, DryTestRecorder::CHECKPOINT).unwrap();
+        assert!(DryTestRecorder::reopen(&mut run, folder.path()).is_ok());
+        let path = folder.path().join(DryTestRecorder::CHECKPOINT);
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, text.replacen("0.125", "0.126", 1)).unwrap();
+        let message = DryTestRecorder::reopen(&mut run, folder.path()).err().unwrap().to_string();
+        assert!(message.contains("checkpoint.json: is damaged or incomplete"), "{message}");
+    }
+}
