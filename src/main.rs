@@ -3,7 +3,7 @@
 fn main() -> std::process::ExitCode {
     restore_default_sigpipe();
     silence_device_selection();
-    breakwater::cli::main()
+    breakwater::cli::run_command(std::env::args_os())
 }
 
 /// Ends the process silently if the reader of its output closes the pipe, as `head` does in

@@ -319,13 +319,19 @@ fn resume_reports_what_is_wrong_with_a_checkpoint() {
     assert!(message.contains("left no checkpoint") && message.contains("summary.json"), "{message}");
     std::fs::write(out.join("checkpoint.h5"), b"not an HDF5 file").unwrap();
     let message = end_with(1, &["resume", path(&out)]);
-    assert!(message.contains("checkpoint.h5: HDF5: "), "{message}");
+    assert!(message.contains("checkpoint.h5: is damaged or incomplete"), "{message}");
 
     let other = folder.path().join("other");
     succeed(&["fracture", path(&written(&thrown(), folder.path())), "--out", path(&other), "--quiet"]);
     std::fs::copy(other.join("checkpoint.h5"), out.join("checkpoint.h5")).unwrap();
     let message = end_with(1, &["resume", path(&out)]);
     assert!(message.contains("belongs to another case"), "{message}");
+    let mut damaged = std::fs::read(other.join("checkpoint.h5")).unwrap();
+    let middle = damaged.len() / 2;
+    damaged[middle] ^= 1;
+    std::fs::write(out.join("checkpoint.h5"), damaged).unwrap();
+    let message = end_with(1, &["resume", path(&out)]);
+    assert!(message.contains("checkpoint.h5: is damaged or incomplete"), "{message}");
     std::fs::write(other.join("energy.csv"), "time_s\n").unwrap();
     let message = end_with(1, &["resume", path(&other)]);
     assert!(message.contains("energy.csv: has 7 bytes, fewer than"), "{message}");

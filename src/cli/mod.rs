@@ -21,7 +21,7 @@ mod sweep;
 mod unit;
 mod wave;
 
-use std::{fmt::Display, process::ExitCode};
+use std::{ffi::OsString, fmt::Display, process::ExitCode};
 
 use clap::{Parser, Subcommand};
 
@@ -87,9 +87,9 @@ impl CommandError {
     }
 }
 
-/// Runs the command that the arguments of the process select, and returns the exit code.
-pub fn main() -> ExitCode {
-    let command = match Arguments::try_parse() {
+/// Runs the command that the arguments select, and returns the exit code. The first argument is the program name.
+pub fn run_command<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) -> ExitCode {
+    let command = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments.command,
         Err(message) => return print_message(&message),
     };

@@ -15,6 +15,7 @@
 //! [`columns`] defines the column names of the tables. A [`Writer`] writes large files while the run continues.
 
 mod atomic;
+pub(crate) mod checksum;
 pub mod columns;
 pub mod driver;
 mod error;

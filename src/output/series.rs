@@ -40,8 +40,9 @@ impl CsvSeries {
     /// Opens the file of an interrupted run and cuts the file to `bytes`, its length in the checkpoint [bytes].
     ///
     /// # Errors
-    /// If the file cannot be opened, is shorter than `bytes`, or `bytes` is not the end of a line.
-    pub fn open_truncated(path: &Path, bytes: u64) -> Result<Self, OutputError> {
+    /// If the file cannot be opened, is shorter than `bytes`, `bytes` is not the end of a line, or the file does not have
+    /// the given columns.
+    pub fn open_truncated<S: AsRef<str>>(path: &Path, columns: &[S], bytes: u64) -> Result<Self, OutputError> {
         let text = std::fs::read(path).map_err(OutputError::io(path))?;
         let Some(kept) = usize::try_from(bytes).ok().and_then(|n| text.get(..n)) else {
             let what = format!("has {} bytes, fewer than the {bytes} at the checkpoint", text.len());
@@ -51,10 +52,14 @@ impl CsvSeries {
             let what = format!("its length at the checkpoint, {bytes} bytes, is not the end of a line");
             return Err(OutputError::content(path, what));
         };
-        let columns = header.split(|b| *b == b',').count();
+        let names: Vec<&str> = columns.iter().map(AsRef::as_ref).collect();
+        if header != names.join(",").as_bytes() {
+            let what = format!("its first line must be `{}`; restore this line", names.join(","));
+            return Err(OutputError::content(path, what));
+        }
         let file = OpenOptions::new().append(true).open(path).map_err(OutputError::io(path))?;
         file.set_len(bytes).map_err(OutputError::io(path))?;
-        Ok(Self { path: path.to_owned(), file, columns, bytes, line: String::with_capacity(256) })
+        Ok(Self { path: path.to_owned(), file, columns: columns.len(), bytes, line: String::with_capacity(256) })
     }
 
     /// Appends one row.
@@ -156,21 +161,23 @@ mod tests {
         let at_checkpoint = series.bytes();
         series.append_rows(&rows[8..13]).unwrap();
         drop(series);
-        let mut series = CsvSeries::open_truncated(&broken, at_checkpoint).unwrap();
+        let mut series = CsvSeries::open_truncated(&broken, &["time_s", "x_m"], at_checkpoint).unwrap();
         series.append_rows(&rows[8..]).unwrap();
         assert_eq!(std::fs::read(&whole).unwrap(), std::fs::read(&broken).unwrap());
         assert_eq!(series.bytes(), std::fs::metadata(&whole).unwrap().len());
     }
 
     #[test]
-    fn a_wrong_checkpoint_length_is_refused() {
+    fn a_wrong_checkpoint_length_or_header_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("energy.csv");
         CsvSeries::create(&path, &["time_s"]).unwrap().append(&[1.5]).unwrap();
-        let error = CsvSeries::open_truncated(&path, 1000).unwrap_err().to_string();
+        let error = CsvSeries::open_truncated(&path, &["time_s"], 1000).unwrap_err().to_string();
         assert!(error.contains("fewer than the 1000"), "{error}");
-        let error = CsvSeries::open_truncated(&path, 9).unwrap_err().to_string();
+        let error = CsvSeries::open_truncated(&path, &["time_s"], 9).unwrap_err().to_string();
         assert!(error.contains("not the end of a line"), "{error}");
+        let error = CsvSeries::open_truncated(&path, &["time_s", "x_m"], 11).unwrap_err().to_string();
+        assert!(error.contains("its first line must be `time_s,x_m`"), "{error}");
         assert_eq!(std::fs::read(&path).unwrap(), b"time_s\n1.5\n");
     }
 }

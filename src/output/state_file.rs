@@ -1,4 +1,4 @@
-//! HDF5 files with the exact state of a run, written atomically.
+//! HDF5 files with the exact state of a run, written atomically. A checksum follows the HDF5 data.
 
 use std::path::Path;
 
@@ -6,6 +6,7 @@ use glam::DVec3;
 use hdf5_metno::{File, Group, H5Type, types::VarLenUnicode};
 
 use super::OutputError;
+use super::checksum::{append_checksum, has_valid_checksum};
 
 /// Result of the HDF5 library.
 pub(crate) type Hdf5Result<T> = hdf5_metno::Result<T>;
@@ -13,8 +14,8 @@ pub(crate) type Hdf5Result<T> = hdf5_metno::Result<T>;
 /// Name of the HDF5 attribute for the text with all data of the state that are not arrays.
 const TEXT: &str = "state";
 
-/// Writes `text` and the datasets that `fill` creates to a temporary file, syncs this file, and renames it to `path`.
-/// The old file remains until the new file is complete.
+/// Writes `text` and the datasets that `fill` creates to a temporary file, appends a checksum, syncs this file, and
+/// renames it to `path`. The old file remains until the new file is complete.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -36,11 +37,30 @@ pub(crate) fn write_state(
     };
     write().map_err(OutputError::hdf5(&temporary))?;
     let publish = || {
-        std::fs::File::open(&temporary)?.sync_all()?;
+        append_checksum(&temporary)?;
         std::fs::rename(&temporary, path)
     };
     publish().map_err(OutputError::io(path))
 }
+
+/// Like [`read_state`], but refuses a file that differs from the file that [`write_state`] has written. The HDF5 library
+/// would read many damaged files without an error, and some damages make the library crash.
+///
+/// # Errors
+/// If the file is missing or invalid, or its checksum is wrong.
+pub(crate) fn read_unchanged_state<T>(
+    path: &Path,
+    read: impl FnOnce(&File) -> Hdf5Result<T>,
+) -> Result<(String, T), OutputError> {
+    if !has_valid_checksum(path).map_err(OutputError::io(path))? {
+        return Err(OutputError::content(path, DAMAGED));
+    }
+    read_state(path, read)
+}
+
+/// Message for a file whose checksum is wrong or missing.
+pub(crate) const DAMAGED: &str =
+    "is damaged or incomplete, or was written by another version of breakwater (wrong checksum); rerun the case";
 
 /// Opens a file of [`write_state`]; returns its text and the result of `read`.
 ///

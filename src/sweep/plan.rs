@@ -15,6 +15,9 @@ use crate::case::{
 /// Largest number of runs in one sweep.
 const MOST_RUNS: usize = 10_000;
 
+/// Largest size of the case files of all runs together [bytes]. A sweep keeps them in memory.
+const MOST_TEXT: usize = 128 << 20;
+
 /// Reasons why a sweep is refused.
 #[derive(Debug, Error)]
 pub enum SweepError {
@@ -125,7 +128,7 @@ impl Sweep {
         }
         let runs = file.combine.runs(&varied).filter(|runs| *runs <= MOST_RUNS);
         let runs = runs.ok_or_else(|| content(format!("vary: more than {MOST_RUNS} runs; use fewer values")))?;
-        let mut duration = f64::INFINITY;
+        let (mut duration, mut size) = (f64::INFINITY, 0);
         let member = |number: usize| {
             let changes = file.combine.changes(&varied, number);
             let mut text = base.clone();
@@ -142,6 +145,12 @@ impl Sweep {
                 text["title"] = format!("{}: {label}", file.title).into();
             }
             let text = format!("{text:#}");
+            size += text.len();
+            if size > MOST_TEXT {
+                let most = MOST_TEXT >> 20;
+                let what = format!("vary: the case files of all {runs} runs need more than {most} MiB; use fewer runs");
+                return Err(content(what));
+            }
             let case = Case::from_str(&text, &case.display().to_string()).map_err(|errors| SweepError::Member {
                 number: number + 1,
                 label: label.clone(),
@@ -295,6 +304,22 @@ mod tests {
         assert_eq!(values, [0.1, 0.21, 0.32, 0.43, 0.54, 0.65, 0.76, 0.87, 0.98]);
         let both = VaryFile { values: Some(vec![json!(1)]), ..vary };
         assert!(both.values(3).unwrap_err().contains("vary[3] (a.b)"));
+    }
+
+    #[test]
+    fn a_sweep_whose_cases_fill_the_memory_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut case: Value = serde_json::from_str(&crate::case::template_text()).unwrap();
+        // Ten runs of 15 MiB exceed the limit of 128 MiB.
+        case["assumptions"] = json!(["x".repeat(15 << 20)]);
+        std::fs::write(folder.path().join("case.json"), case.to_string()).unwrap();
+        let path = folder.path().join("sweep.json");
+        let sweep = r#"{ "title": "Large", "case": "case.json",
+            "vary": [{ "key": "stop.duration_s", "from": 11, "to": 20, "count": 10 }] }"#;
+        std::fs::write(&path, sweep).unwrap();
+        let message = Sweep::load(&path).unwrap_err().to_string();
+        let expected = "sweep.json: vary: the case files of all 10 runs need more than 128 MiB; use fewer runs";
+        assert!(message.ends_with(expected), "{message}");
     }
 
     #[test]

@@ -192,7 +192,7 @@ fn place(
     let placements = match (row, &file.centres_m) {
         (Some(row), _) => row::place(&row, shape, site, check),
         (None, Some(centres)) if !posed => centres::place(centres, file, shape, site, check),
-        _ => poses::place(file, around.name, site, check)?,
+        _ => poses::place(file, around.name, shape, site, check)?,
     };
     validate_above_terrain(&placements, site, check);
     Some(if in_layer { planar::lay(placements, site, check) } else { placements })

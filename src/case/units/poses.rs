@@ -1,9 +1,11 @@
 //! Places units at the poses in the case file or in a placement file, and validates the poses.
 
+use std::f64::consts::PI;
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
 
+use super::shape::UnitShape;
 use super::{MAX_UNITS, UnitPose};
 use crate::case::file::{PlacementFile, PoseFile, Sides, UnitsFile};
 use crate::case::flume::site::Site;
@@ -16,7 +18,13 @@ const ROUNDING: f64 = 1e-3;
 
 /// Places the units at the poses in the case file, or in the placement file that it names. The path of the placement
 /// file is relative to the folder of the case file.
-pub fn place(file: &UnitsFile, case_name: &str, site: &Site, check: &mut Checker) -> Option<Vec<UnitPose>> {
+pub fn place(
+    file: &UnitsFile,
+    case_name: &str,
+    shape: &UnitShape,
+    site: &Site,
+    check: &mut Checker,
+) -> Option<Vec<UnitPose>> {
     for (key, written) in [
         ("count", file.count.is_some()),
         ("pitch_m", file.pitch_m.is_some()),
@@ -42,13 +50,30 @@ pub fn place(file: &UnitsFile, case_name: &str, site: &Site, check: &mut Checker
         check.reject(path, format!("{} poses", poses.len()), format!("1 to {MAX_UNITS}"), advice);
         return None;
     }
-    Some(
-        poses
-            .iter()
-            .enumerate()
-            .map(|(index, pose)| validate(&format!("{path}[{index}]"), pose, site, check))
-            .collect(),
-    )
+    let validate_one = |(index, pose)| validate(&format!("{path}[{index}]"), pose, site, check);
+    let placements: Vec<UnitPose> = poses.iter().enumerate().map(validate_one).collect();
+    refuse_crowd(&placements, path, shape, check);
+    Some(placements)
+}
+
+/// Refuses units of which so many are near another unit that they must overlap. The search for contacts would need hours
+/// and all memory for thousands of units at one position.
+fn refuse_crowd(placements: &[UnitPose], path: &str, shape: &UnitShape, check: &mut Checker) {
+    let reach = shape.unit().solid().vertices().iter().map(|vertex| vertex.length()).fold(0.0, f64::max);
+    // Units with their centres within two reaches of a centre are inside a sphere with a radius of three reaches.
+    let most = (4.0 / 3.0 * PI * (3.0 * reach).powi(3) / shape.volume()) as usize;
+    let near = |a: &UnitPose| {
+        placements.iter().filter(|b| a.centre.distance_squared(b.centre) <= (2.0 * reach).powi(2)).count()
+    };
+    let crowded = placements.iter().map(near).enumerate().find(|(_, count)| *count > most);
+    if let Some((index, count)) = crowded {
+        check.reject(
+            &format!("{path}[{index}].centre_m"),
+            format!("a position with {count} units within {} m", as_text(2.0 * reach)),
+            format!("a position with at most {most} units, because more units overlap"),
+            "move the units apart",
+        );
+    }
 }
 
 fn read(path: &str, case_name: &str, check: &mut Checker) -> Option<Vec<PoseFile>> {
@@ -97,4 +122,40 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Un
     // Quaternions of length 1 are not normalized again, so that a resumed run has exactly the same poses.
     let is_exact = (length - 1.0).abs() < 1e-15;
     UnitPose { centre, rotation: if is_exact { rotation } else { rotation.normalize() } }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::DryTestCase;
+
+    /// Checks a dry test of `count` cubes of 0.1 m with their centres `distance` [m] apart.
+    fn check(count: usize, distance: f64) -> Result<(), String> {
+        let pose = |i: usize| {
+            let at = |i: usize| 0.2 + distance * i as f64;
+            format!(r#"{{ "centre_m": [{}, {}, {}] }}"#, at(i % 10), at(i / 10 % 10), at(i / 100))
+        };
+        let poses: Vec<String> = (0..count).map(pose).collect();
+        let text = format!(
+            r#"{{ "title": "Cubes", "dry_test": {{ "kind": "settle" }},
+            "flume": {{ "bed_m": [[0.0, 0.0], [3.0, 0.0]], "material": "mortar" }},
+            "domain": {{ "x_m": [0.0, 3.0], "width_m": 3.0, "sides": "walls", "top_z_m": 3.0 }},
+            "units": {{ "shape": "cuboid", "size_m": [0.1, 0.1, 0.1], "mass_kg": 2.3, "material": "mortar",
+                "poses": [{}] }},
+            "materials": [{{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }}],
+            "friction": [{{ "between": ["mortar", "mortar"], "coefficient": 0.65 }}],
+            "stop": {{ "duration_s": 1.0 }} }}"#,
+            poses.join(",")
+        );
+        DryTestCase::from_str(&text, "cubes.json").map(|_| ()).map_err(|errors| errors.to_string())
+    }
+
+    #[test]
+    fn units_side_by_side_are_allowed_and_a_crowd_is_refused() {
+        check(1000, 0.1).unwrap();
+        let message = check(1000, 0.01).unwrap_err();
+        // Half the diagonal of the cube is 0.0866 m: a sphere of three times this radius has the volume of 73 cubes.
+        let expected = "a position with at most 73 units, because more units overlap; move the units apart";
+        assert!(message.starts_with("cubes.json: units.poses[0].centre_m = a position with "), "{message}");
+        assert!(message.ends_with(expected), "{message}");
+    }
 }

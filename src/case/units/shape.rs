@@ -1,6 +1,6 @@
 //! Validates the shape of the armour units and computes the dimensions that are needed to place them.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec3;
 
@@ -90,7 +90,25 @@ impl PartialEq for UnitShape {
     }
 }
 
+/// Rounding share and shape of the unit that was built last. All runs of most sweeps have the same unit, and building a
+/// unit takes most of the time in which a case is checked.
+static LAST_BUILT: Mutex<Option<(f64, UnitShape)>> = Mutex::new(None);
+
 impl UnitShape {
+    /// Builds the unit, or returns the unit that was built last if it is the same.
+    fn build(kind: UnitKind, rounding_share: f64) -> Result<Self, ArmourUnitError> {
+        let mut last = LAST_BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*last {
+            Some((share, shape)) if *share == rounding_share && shape.kind == kind => Ok(shape.clone()),
+            _ => {
+                let unit = Arc::new(kind.build(rounding_share)?);
+                let shape = Self { kind, unit };
+                *last = Some((rounding_share, shape.clone()));
+                Ok(shape)
+            }
+        }
+    }
+
     /// Returns the unit with its surface, convex parts and mass properties.
     pub fn unit(&self) -> &Arc<ArmourUnit> {
         &self.unit
@@ -181,8 +199,8 @@ pub fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut C
     if check.count() > before {
         return None;
     }
-    match kind.build(rounding_share) {
-        Ok(unit) => Some(UnitShape { kind, unit: Arc::new(unit) }),
+    match UnitShape::build(kind, rounding_share) {
+        Ok(shape) => Some(shape),
         Err(error @ ArmourUnitError::Waist { waist, allowed: [low, high] }) => {
             let range = format!("between {low} and {high}");
             check.reject("units.waist_ratio", as_text(waist), range, error.to_string());

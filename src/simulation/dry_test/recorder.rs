@@ -8,8 +8,8 @@ use super::{DryTest, Measured};
 use crate::{
     case::{BreakageSettings, CaseIdentity, SiteTerrain},
     output::{
-        Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, Schedule, UnitSurface, columns,
-        write_atomically,
+        Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, Schedule, UnitSurface, checksum::checksum,
+        columns, state_file::DAMAGED, write_atomically,
     },
     rigid::{ContactEvent, RigidSnapshot},
     simulation::flume::outputs::snapshots::{Frame, UNIT_FIELDS},
@@ -37,6 +37,21 @@ struct Checkpoint {
 
 /// Version of the checkpoint layout; increased when the layout changes.
 const VERSION: u32 = 4;
+
+/// A checkpoint as it is stored. A damaged number can be valid JSON, so that only the checksum reveals the damage.
+#[derive(Debug, Serialize, Deserialize)]
+struct Stored {
+    checksum: String,
+    state: Checkpoint,
+}
+
+impl Stored {
+    /// Returns the checksum of the state as JSON text. This text is the same after writing and reading.
+    fn checksum(state: &Checkpoint) -> serde_json::Result<String> {
+        let sum = checksum(serde_json::to_vec(state)?.as_slice()).map_err(serde_json::Error::io)?;
+        Ok(format!("{sum:016x}"))
+    }
+}
 
 const UNITS_FILE: &str = "units.csv";
 const CONTACTS_FILE: &str = "contacts.csv";
@@ -104,7 +119,7 @@ impl DryTestRecorder {
     pub fn reopen(run: &mut DryTest, dir: &Path) -> Result<Self, OutputError> {
         let path = dir.join(Self::CHECKPOINT);
         let bytes = std::fs::read(&path).map_err(OutputError::io(&path))?;
-        let state: Checkpoint = serde_json::from_slice(&bytes).map_err(OutputError::json(&path))?;
+        let Stored { checksum: written, state } = serde_json::from_slice(&bytes).map_err(OutputError::json(&path))?;
         if state.version != VERSION {
             let what = format!(
                 "was written by another version of breakwater (layout {} instead of {VERSION}); rerun the case",
@@ -112,10 +127,14 @@ impl DryTestRecorder {
             );
             return Err(OutputError::content(&path, what));
         }
+        if written != Stored::checksum(&state).map_err(OutputError::json(&path))? {
+            return Err(OutputError::content(&path, DAMAGED));
+        }
         state.case.check(&run.case.identity).map_err(|reason| OutputError::content(&path, reason))?;
         run.world.restore(&state.world).map_err(|error| OutputError::content(&path, error.to_string()))?;
         run.measured = state.measured;
-        let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
+        let table =
+            |file: &str, columns: &[&str], bytes: u64| CsvSeries::open_truncated(&dir.join(file), columns, bytes);
         let mut counts = state.counts;
         let (output, time) = (run.case.output, run.time());
         counts.series.set_interval(Some(output.series_interval), time);
@@ -127,9 +146,9 @@ impl DryTestRecorder {
         };
         Ok(Self {
             dir: dir.to_owned(),
-            units: table(UNITS_FILE, counts.bytes[0])?,
-            contacts: table(CONTACTS_FILE, counts.bytes[1])?,
-            energy: table(ENERGY_FILE, counts.bytes[2])?,
+            units: table(UNITS_FILE, &columns::UNITS, counts.bytes[0])?,
+            contacts: table(CONTACTS_FILE, &columns::CONTACTS, counts.bytes[1])?,
+            energy: table(ENERGY_FILE, &columns::DRY_ENERGY, counts.bytes[2])?,
             surfaces: run.case.output.units_interval.map(surfaces).transpose()?,
             counts,
         })
@@ -192,7 +211,8 @@ impl DryTestRecorder {
             measured: run.measured.clone(),
             counts: self.counts.clone(),
         };
-        let bytes = serde_json::to_vec(&state).map_err(OutputError::json(&path))?;
+        let checksum = Stored::checksum(&state).map_err(OutputError::json(&path))?;
+        let bytes = serde_json::to_vec(&Stored { checksum, state }).map_err(OutputError::json(&path))?;
         write_atomically(&path, &bytes)
     }
 
@@ -240,5 +260,39 @@ impl DryTestRecorder {
         let Some(series) = &mut self.surfaces else { return Ok(()) };
         let solid = run.case.units.shape.unit().solid();
         Frame::of_surfaces(solid, run.world.states(), run.world.time()).append_to(series)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::case::DryTestCase;
+
+    const CASE: &str = r#"{
+        "title": "A cube on level ground", "dry_test": { "kind": "settle" },
+        "flume": { "bed_m": [[0.0, 0.0], [1.0, 0.0]], "material": "mortar" },
+        "domain": { "x_m": [0.0, 1.0], "width_m": 1.0, "sides": "walls", "top_z_m": 1.0 },
+        "units": { "shape": "cuboid", "size_m": [0.1, 0.1, 0.1], "mass_kg": 2.3, "material": "mortar",
+            "poses": [{ "centre_m": [0.5, 0.5, 0.125] }] },
+        "materials": [{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
+        "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.65 }],
+        "stop": { "duration_s": 1.0 }
+    }"#;
+
+    #[test]
+    fn a_checkpoint_with_a_changed_number_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let case = Arc::new(DryTestCase::from_str(CASE, "cube.json").unwrap());
+        let mut run = DryTest::new(case).unwrap();
+        let recorder = DryTestRecorder::create(&run, folder.path()).unwrap();
+        recorder.record_state(&run, DryTestRecorder::CHECKPOINT).unwrap();
+        assert!(DryTestRecorder::reopen(&mut run, folder.path()).is_ok());
+        let path = folder.path().join(DryTestRecorder::CHECKPOINT);
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, text.replacen("0.125", "0.126", 1)).unwrap();
+        let message = DryTestRecorder::reopen(&mut run, folder.path()).err().unwrap().to_string();
+        assert!(message.contains("checkpoint.json: is damaged or incomplete"), "{message}");
     }
 }

@@ -66,7 +66,7 @@ impl DetailRecorder {
         let section = |_| PolyDataSeries::reopen(&path, Cells::Triangles, &SECTION_FIELDS, steps);
         let tets = |_| TetSeries::reopen(&dir.join(TETS_FILE), &TET_FIELDS, lengths.tets_steps);
         Ok(Self {
-            cracks: CsvSeries::open_truncated(&dir.join(CRACKS_FILE), lengths.cracks_bytes)?,
+            cracks: CsvSeries::open_truncated(&dir.join(CRACKS_FILE), &columns::CRACKS, lengths.cracks_bytes)?,
             recorded: lengths.cracks,
             section: case.surfaces_interval.map(section).transpose()?.map(|series| (cut(case), series)),
             tets: case.tets_interval.map(tets).transpose()?,

@@ -71,8 +71,8 @@ impl FractureRecorder {
         };
         let [energy, bodies] = state.bytes;
         Ok(Self {
-            energy: CsvSeries::open_truncated(&dir.join(ENERGY_FILE), energy)?,
-            bodies: CsvSeries::open_truncated(&dir.join(BODIES_FILE), bodies)?,
+            energy: CsvSeries::open_truncated(&dir.join(ENERGY_FILE), &columns::FRACTURE_ENERGY, energy)?,
+            bodies: CsvSeries::open_truncated(&dir.join(BODIES_FILE), &columns::FRACTURE_BODIES, bodies)?,
             surfaces: case.surfaces_interval.map(series).transpose()?,
             detail: DetailRecorder::reopen(case, dir, &state.detail)?,
         })

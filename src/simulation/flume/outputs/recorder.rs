@@ -96,14 +96,16 @@ impl Recorder {
     /// If a file is missing or shorter than at the checkpoint.
     pub fn reopen(simulation: &Simulation, dir: &Path, mut state: RecorderState) -> Result<Self, OutputError> {
         state.set_intervals(&simulation.case.output, simulation.time);
-        let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
+        let table =
+            |file: &str, columns: &[&str], bytes: u64| CsvSeries::open_truncated(&dir.join(file), columns, bytes);
+        let gauges = dir.join(GAUGES_FILE);
         Ok(Self {
             dir: dir.to_owned(),
-            gauges: table(GAUGES_FILE, state.bytes[0])?,
-            units: table(UNITS_FILE, state.bytes[1])?,
-            contacts: table(CONTACTS_FILE, state.bytes[2])?,
-            energy: table(ENERGY_FILE, state.bytes[3])?,
-            diagnostics: table(DIAGNOSTICS_FILE, state.bytes[4])?,
+            gauges: CsvSeries::open_truncated(&gauges, &gauge_columns(&simulation.case), state.bytes[0])?,
+            units: table(UNITS_FILE, &columns::UNITS, state.bytes[1])?,
+            contacts: table(CONTACTS_FILE, &columns::CONTACTS, state.bytes[2])?,
+            energy: table(ENERGY_FILE, &columns::ENERGY, state.bytes[3])?,
+            diagnostics: table(DIAGNOSTICS_FILE, &columns::DIAGNOSTICS, state.bytes[4])?,
             writer: Writer::spawn(SnapshotFiles::reopen(simulation, dir, state.water.count, state.surfaces.count)?),
             state,
         })
