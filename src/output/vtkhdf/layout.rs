@@ -109,13 +109,54 @@ pub(super) fn append_values(dataset: &Dataset, values: &FieldValues<'_>) -> Hdf5
     }
 }
 
-/// Cuts the dataset of a field to its first `rows` rows.
-pub(super) fn cut_field(dataset: &Dataset, kind: FieldKind, rows: usize) -> Hdf5Result<()> {
-    match kind {
-        FieldKind::Vector => dataset.resize((rows, 3)),
-        FieldKind::Tensor => dataset.resize((rows, 6)),
-        FieldKind::Scalar | FieldKind::Integer => dataset.resize(rows),
+/// Cuts a dataset to its first `rows` rows.
+///
+/// # Errors
+/// If the dataset has fewer rows.
+pub(super) fn cut(dataset: &Dataset, rows: usize) -> Hdf5Result<()> {
+    let mut shape = dataset.shape();
+    match shape.first_mut() {
+        Some(present) if *present >= rows => *present = rows,
+        _ => return Err(damaged(dataset)),
     }
+    dataset.resize(shape)
+}
+
+/// Returns the entry `row` of a dataset with one count or start row per step.
+///
+/// # Errors
+/// If the entry is missing or negative.
+pub(super) fn entry(dataset: &Dataset, row: usize) -> Hdf5Result<usize> {
+    let entries = dataset.read_1d::<i64>()?;
+    entries.get(row).and_then(|entry| usize::try_from(*entry).ok()).ok_or_else(|| damaged(dataset))
+}
+
+/// Reads the entries of a dataset with one count or start row per step, for the first `steps` steps.
+///
+/// # Errors
+/// If the dataset has fewer entries, or an entry is negative.
+pub(super) fn entries(file: &File, name: &str, steps: usize) -> Hdf5Result<Vec<usize>> {
+    let dataset = file.dataset(&format!("VTKHDF/{name}"))?;
+    let values: Vec<i64> = dataset.read_raw()?;
+    let kept = values.get(..steps).ok_or_else(|| damaged(&dataset))?;
+    kept.iter().map(|value| usize::try_from(*value).map_err(|_| damaged(&dataset))).collect()
+}
+
+/// Reads `count` rows of three values, starting at the row `start`.
+///
+/// # Errors
+/// If the dataset has fewer rows, or does not have three columns.
+pub(super) fn read_vectors(dataset: &Dataset, start: usize, count: usize) -> Hdf5Result<Vec<[f32; 3]>> {
+    let rows = dataset.read_slice_2d::<f32, _>((start..start + count, ..))?;
+    if rows.ncols() != 3 {
+        return Err(damaged(dataset));
+    }
+    Ok(rows.outer_iter().map(|row| [row[0], row[1], row[2]]).collect())
+}
+
+/// Returns the error for a dataset whose content does not match the rest of the file.
+pub(super) fn damaged(dataset: &Dataset) -> hdf5_metno::Error {
+    format!("the dataset {} is damaged; rerun the case", dataset.name()).into()
 }
 
 pub(super) fn new_list<T: H5Type>(group: &Group, name: &str, chunk: usize) -> Hdf5Result<Dataset> {

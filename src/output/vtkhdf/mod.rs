@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use hdf5_metno::{Dataset, File, Group};
 
 use self::layout::{
-    Hdf5Result, TOPOLOGIES, append_rows, append_rows_of, append_values, cut_field, open_with_steps, set_row,
+    Hdf5Result, TOPOLOGIES, append_rows, append_rows_of, append_values, cut, damaged, entry, open_with_steps, set_row,
     set_row_of_4, unlocked, write_skeleton,
 };
 use super::OutputError;
@@ -268,32 +268,27 @@ impl PolyDataSeries {
 
         let end_of = |starts: &Dataset| -> Hdf5Result<usize> {
             let Some(last) = kept.checked_sub(1) else { return Ok(0) };
-            let start = starts.read_1d::<i64>()?[last];
-            let count = root.dataset("NumberOfPoints")?.read_1d::<i64>()?[last];
-            Ok(usize::try_from(start + count).unwrap_or(0))
+            Ok(entry(starts, last)? + entry(&root.dataset("NumberOfPoints")?, last)?)
         };
-        root.dataset("Points")?.resize((end_of(&steps.dataset("PointOffsets")?)?, 3))?;
+        cut(&root.dataset("Points")?, end_of(&steps.dataset("PointOffsets")?)?)?;
         let point_data_offsets = steps.group("PointDataOffsets")?;
-        for (name, kind) in &self.fields {
+        for (name, _) in &self.fields {
             let starts = point_data_offsets.dataset(name)?;
-            cut_field(&root.group("PointData")?.dataset(name)?, *kind, end_of(&starts)?)?;
-            starts.resize(kept)?;
+            cut(&root.group("PointData")?.dataset(name)?, end_of(&starts)?)?;
+            cut(&starts, kept)?;
         }
         if self.cells == Cells::Triangles {
             self.recall_last_triangles(&root, &steps)?;
         }
-        root.dataset("NumberOfPoints")?.resize(kept)?;
+        cut(&root.dataset("NumberOfPoints")?, kept)?;
         for name in TOPOLOGIES {
             let group = root.group(name)?;
-            group.dataset("NumberOfCells")?.resize(kept)?;
-            group.dataset("NumberOfConnectivityIds")?.resize(kept)?;
+            cut(&group.dataset("NumberOfCells")?, kept)?;
+            cut(&group.dataset("NumberOfConnectivityIds")?, kept)?;
         }
-        for name in ["Values", "PartOffsets", "NumberOfParts", "PointOffsets"] {
-            steps.dataset(name)?.resize(kept)?;
-        }
-        for name in ["CellOffsets", "ConnectivityIdOffsets"] {
-            steps.dataset(name)?.resize((kept, 4))?;
-        }
+        let of_steps =
+            ["Values", "PartOffsets", "NumberOfParts", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets"];
+        of_steps.into_iter().try_for_each(|name| cut(&steps.dataset(name)?, kept))?;
         self.file.flush()
     }
 
@@ -302,11 +297,13 @@ impl PolyDataSeries {
         let group = root.group(TOPOLOGIES[Cells::Triangles.topology()])?;
         let connectivity = group.dataset("Connectivity")?;
         let Some(last) = self.steps.checked_sub(1) else { return connectivity.resize(0) };
-        let ids = group.dataset("NumberOfConnectivityIds")?.read_1d::<i64>()?[last];
-        let start = steps.dataset("ConnectivityIdOffsets")?.read_2d::<i64>()?[(last, Cells::Triangles.topology())];
-        self.last_connectivity_start = usize::try_from(start).unwrap_or(0);
-        let end = self.last_connectivity_start + usize::try_from(ids).unwrap_or(0);
-        connectivity.resize(end)?;
+        let ids = entry(&group.dataset("NumberOfConnectivityIds")?, last)?;
+        let offsets = steps.dataset("ConnectivityIdOffsets")?;
+        let start = offsets.read_2d::<i64>()?.get((last, Cells::Triangles.topology())).copied();
+        self.last_connectivity_start =
+            start.and_then(|start| usize::try_from(start).ok()).ok_or_else(|| damaged(&offsets))?;
+        let end = self.last_connectivity_start + ids;
+        cut(&connectivity, end)?;
         let corners = connectivity.read_slice_1d::<i64, _>(self.last_connectivity_start..end)?;
         let corners: Vec<u32> = corners.iter().map(|i| u32::try_from(*i).unwrap_or(0)).collect();
         self.last_triangles = corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();

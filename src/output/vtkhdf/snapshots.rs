@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use hdf5_metno::File;
 
 use super::super::OutputError;
-use super::layout::{Hdf5Result, unlocked};
+use super::layout::{Hdf5Result, entries, read_vectors, unlocked};
 
 /// Reader of a file of particles with velocities that a [`super::PolyDataSeries`] wrote.
 #[derive(Debug)]
@@ -43,18 +43,15 @@ impl WaterSnapshots {
             return Ok(None);
         }
         let present = file.group("VTKHDF/Steps")?.attr("NSteps")?.read_scalar::<i64>()?;
-        let list = |name: &str| -> Hdf5Result<Vec<usize>> {
-            let values = file.dataset(&format!("VTKHDF/{name}"))?.read_raw::<i64>()?;
-            Ok(values.into_iter().map(|v| usize::try_from(v).unwrap_or(0)).collect())
-        };
         let mut times_s = file.dataset("VTKHDF/Steps/Values")?.read_raw::<f64>()?;
         times_s.truncate(usize::try_from(present).unwrap_or(0));
+        let list = |name: &str| entries(&file, name, times_s.len());
         Ok(Some(Self {
             path: path.to_owned(),
-            times_s,
             counts: list("NumberOfPoints")?,
             point_starts: list("Steps/PointOffsets")?,
             velocity_starts: list("Steps/PointDataOffsets/velocity")?,
+            times_s,
             file,
         }))
     }
@@ -81,8 +78,7 @@ impl WaterSnapshots {
         assert!(step < self.times_s.len(), "{}: no recorded time {step}", self.path.display());
         let rows = |name: &str, start: usize| -> Hdf5Result<Vec<[f32; 3]>> {
             let dataset = self.file.dataset(&format!("VTKHDF/{name}"))?;
-            let rows = dataset.read_slice_2d::<f32, _>((start..start + self.counts[step], ..))?;
-            Ok(rows.outer_iter().map(|row| [row[0], row[1], row[2]]).collect())
+            read_vectors(&dataset, start, self.counts[step])
         };
         let read = || -> Hdf5Result<WaterSnapshot> {
             Ok(WaterSnapshot {

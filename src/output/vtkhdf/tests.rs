@@ -118,6 +118,32 @@ fn triangles_are_written_again_only_when_they_change() {
 }
 
 #[test]
+fn a_damaged_file_is_refused_on_resume() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("units.vtkhdf");
+    let fields = [("unit", FieldKind::Integer)];
+    let damages: [(&str, fn(&Dataset)); 5] = [
+        ("NumberOfPoints", |dataset| dataset.resize(1).unwrap()),
+        ("NumberOfPoints", |dataset| dataset.write_raw(&[3_i64, -3]).unwrap()),
+        ("NumberOfPoints", |dataset| dataset.write_raw(&[3, i64::MAX]).unwrap()),
+        ("Polygons/NumberOfConnectivityIds", |dataset| dataset.write_raw(&[3, i64::MAX]).unwrap()),
+        ("Steps/Values", |dataset| dataset.resize(1).unwrap()),
+    ];
+    for (name, damage) in damages {
+        let mut series = PolyDataSeries::create(&path, Cells::Triangles, &fields).unwrap();
+        for time in [0.0, 0.1] {
+            series.append(time, &[[0.0; 3]; 3], &[[0, 1, 2]], &[FieldValues::Integer(&[1; 3])]).unwrap();
+        }
+        drop(series);
+        let file = File::open_rw(&path).unwrap();
+        damage(&file.dataset(&format!("VTKHDF/{name}")).unwrap());
+        drop(file);
+        let error = PolyDataSeries::open_and_truncate(&path, Cells::Triangles, &fields, 2).err().unwrap().to_string();
+        assert!(error.contains("units.vtkhdf: HDF5: the dataset /VTKHDF/") && error.contains("is damaged"), "{error}");
+    }
+}
+
+#[test]
 fn an_error_names_the_file() {
     let error = PolyDataSeries::create(Path::new("/nowhere/fluid.vtkhdf"), Cells::Vertices, &[]).unwrap_err();
     assert!(error.to_string().starts_with("/nowhere/fluid.vtkhdf: HDF5: "), "{error}");

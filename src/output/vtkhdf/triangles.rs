@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use hdf5_metno::{File, H5Type};
 
 use super::super::OutputError;
-use super::layout::{Hdf5Result, unlocked};
+use super::layout::{Hdf5Result, entries, read_vectors, unlocked};
 
 /// Reader of a file of triangles that a [`super::PolyDataSeries`] wrote. The triangles share no points.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ impl TriangleMoments {
             let present = file.group("VTKHDF/Steps")?.attr("NSteps")?.read_scalar::<i64>()?;
             let mut times_s = file.dataset("VTKHDF/Steps/Values")?.read_raw::<f64>()?;
             times_s.truncate(usize::try_from(present).unwrap_or(0));
-            let counts = offsets(&file, "NumberOfPoints")?;
+            let counts = entries(&file, "NumberOfPoints", times_s.len())?;
             Ok(Self { path: path.to_owned(), file, times_s, counts })
         };
         read().map_err(OutputError::hdf5(path))
@@ -48,11 +48,10 @@ impl TriangleMoments {
     /// If `moment` is not less than the number of recorded times.
     pub fn triangles(&self, moment: usize) -> Result<Vec<[DVec3; 3]>, OutputError> {
         let read = || -> Hdf5Result<Vec<[DVec3; 3]>> {
-            let start = offsets(&self.file, "Steps/PointOffsets")?[moment];
+            let start = entries(&self.file, "Steps/PointOffsets", self.times_s.len())?[moment];
             let dataset = self.file.dataset("VTKHDF/Points")?;
-            let rows = dataset.read_slice_2d::<f32, _>((start..start + self.counts[moment], ..))?;
-            let points: Vec<DVec3> =
-                rows.outer_iter().map(|row| DVec3::new(row[0].into(), row[1].into(), row[2].into())).collect();
+            let points = read_vectors(&dataset, start, self.counts[moment])?;
+            let points: Vec<DVec3> = points.into_iter().map(|point| Vec3::from_array(point).as_dvec3()).collect();
             Ok(points.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect())
         };
         read().map_err(OutputError::hdf5(&self.path))
@@ -68,18 +67,13 @@ impl TriangleMoments {
     /// If `moment` is not less than the number of recorded times.
     pub fn values<T: H5Type + Copy>(&self, moment: usize, field: &str) -> Result<Vec<T>, OutputError> {
         let read = || -> Hdf5Result<Vec<T>> {
-            let start = offsets(&self.file, &format!("Steps/PointDataOffsets/{field}"))?[moment];
+            let start = entries(&self.file, &format!("Steps/PointDataOffsets/{field}"), self.times_s.len())?[moment];
             let dataset = self.file.dataset(&format!("VTKHDF/PointData/{field}"))?;
             let values = dataset.read_slice_1d::<T, _>(start..start + self.counts[moment])?;
             Ok(values.iter().copied().step_by(3).collect())
         };
         read().map_err(OutputError::hdf5(&self.path))
     }
-}
-
-fn offsets(file: &File, name: &str) -> Hdf5Result<Vec<usize>> {
-    let values = file.dataset(&format!("VTKHDF/{name}"))?.read_raw::<i64>()?;
-    Ok(values.into_iter().map(|v| usize::try_from(v).unwrap_or(0)).collect())
 }
 
 #[cfg(test)]
@@ -104,5 +98,13 @@ mod tests {
         assert_eq!(moments.triangles(2).unwrap()[1][2].x, 5.0);
         assert_eq!(moments.values::<i32>(1, "mode").unwrap(), [0, 3]);
         assert!(moments.values::<i32>(1, "none").is_err());
+        drop(moments);
+        let file = File::open_rw(&path).unwrap();
+        file.dataset("VTKHDF/Steps/PointOffsets").unwrap().resize(1).unwrap();
+        file.dataset("VTKHDF/Steps/PointDataOffsets/mode").unwrap().write_raw(&[0_i64, -1, 6]).unwrap();
+        drop(file);
+        let moments = TriangleMoments::open(&path).unwrap();
+        assert!(moments.triangles(2).unwrap_err().to_string().contains("is damaged"));
+        assert!(moments.values::<i32>(1, "mode").unwrap_err().to_string().contains("is damaged"));
     }
 }

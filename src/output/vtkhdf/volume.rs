@@ -10,7 +10,7 @@ use hdf5_metno::{Dataset, File};
 
 use super::super::OutputError;
 use super::layout::{
-    Hdf5Result, LONG_CHUNK, STEP_CHUNK, append_rows, append_rows_of, append_values, cut_field, new_field, new_list,
+    Hdf5Result, LONG_CHUNK, STEP_CHUNK, append_rows, append_rows_of, append_values, cut, entry, new_field, new_list,
     new_root, new_rows, open_with_steps, set_row, unlocked,
 };
 use super::{FieldKind, FieldValues};
@@ -145,37 +145,36 @@ impl TetSeries {
         steps.attr("NSteps")?.write_scalar(&(kept as i64))?;
         let end_of = |starts: &Dataset, counts: &str| -> Hdf5Result<usize> {
             let Some(last) = kept.checked_sub(1) else { return Ok(0) };
-            let count = root.dataset(counts)?.read_1d::<i64>()?[last];
-            Ok(usize::try_from(starts.read_1d::<i64>()?[last] + count).unwrap_or(0))
+            Ok(entry(starts, last)? + entry(&root.dataset(counts)?, last)?)
         };
-        root.dataset("Points")?.resize((end_of(&steps.dataset("PointOffsets")?, "NumberOfPoints")?, 3))?;
+        cut(&root.dataset("Points")?, end_of(&steps.dataset("PointOffsets")?, "NumberOfPoints")?)?;
         let starts = steps.group("PointDataOffsets")?.dataset(VELOCITY)?;
-        root.group("PointData")?.dataset(VELOCITY)?.resize((end_of(&starts, "NumberOfPoints")?, 3))?;
-        starts.resize(kept)?;
-        for (name, kind) in &self.fields {
+        cut(&root.group("PointData")?.dataset(VELOCITY)?, end_of(&starts, "NumberOfPoints")?)?;
+        cut(&starts, kept)?;
+        for (name, _) in &self.fields {
             let starts = steps.group("CellDataOffsets")?.dataset(name)?;
-            cut_field(&root.group("CellData")?.dataset(name)?, *kind, end_of(&starts, "NumberOfCells")?)?;
-            starts.resize(kept)?;
+            cut(&root.group("CellData")?.dataset(name)?, end_of(&starts, "NumberOfCells")?)?;
+            cut(&starts, kept)?;
         }
         let cells = end_of(&steps.dataset("CellOffsets")?, "NumberOfCells")?;
-        root.dataset("Types")?.resize(cells)?;
-        root.dataset("Offsets")?.resize(cells + kept)?;
+        cut(&root.dataset("Types")?, cells)?;
+        cut(&root.dataset("Offsets")?, cells + kept)?;
         let connectivity = root.dataset("Connectivity")?;
         let starts = steps.dataset("ConnectivityIdOffsets")?;
         let end = end_of(&starts, "NumberOfConnectivityIds")?;
-        connectivity.resize(end)?;
+        cut(&connectivity, end)?;
         if let Some(last) = kept.checked_sub(1) {
-            let start = usize::try_from(starts.read_1d::<i64>()?[last]).unwrap_or(0);
+            let start = entry(&starts, last)?;
             let corners = connectivity.read_slice_1d::<i64, _>(start..end)?;
             let corners: Vec<u32> = corners.iter().map(|i| u32::try_from(*i).unwrap_or(0)).collect();
             self.last_tets = corners.chunks_exact(4).map(|t| [t[0], t[1], t[2], t[3]]).collect();
             self.last_connectivity_start = start;
         }
         for name in ["NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"] {
-            root.dataset(name)?.resize(kept)?;
+            cut(&root.dataset(name)?, kept)?;
         }
-        steps.dataset("Values")?.resize(kept)?;
-        STARTS.into_iter().try_for_each(|name| steps.dataset(name)?.resize(kept))?;
+        cut(&steps.dataset("Values")?, kept)?;
+        STARTS.into_iter().try_for_each(|name| cut(&steps.dataset(name)?, kept))?;
         self.file.flush()
     }
 }
