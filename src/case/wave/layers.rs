@@ -2,7 +2,7 @@
 
 use super::{Surroundings, Wave};
 use crate::case::reading::check::{Checker, as_text};
-use crate::waves::flume_model::{MAX_LAYERS, dispersion};
+use crate::waves::flume_model::{MAX_LAYERS, dispersion, record};
 use crate::waves::theory::irregular::IrregularWave;
 use crate::waves::theory::regular::RegularWave;
 
@@ -76,7 +76,9 @@ impl Places {
         let depth_m = self.at_wavemaker;
         let errors = self.periods.iter().map(|&period_s| {
             let wave = RegularWave { height_m: 0.0, period_s, depth_m, gravity: self.gravity };
-            dispersion::height_error(wave.wavenumber_per_m() * depth_m, layers)
+            let kd = wave.wavenumber_per_m() * depth_m;
+            let longer = dispersion::wavelength_error(period_s, depth_m, self.gravity, layers).unwrap_or(0.0);
+            record::height_error(kd, kd / (1.0 + longer), layers)
         });
         largest(errors.collect())
     }

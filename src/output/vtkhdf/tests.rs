@@ -135,10 +135,10 @@ fn a_damaged_file_is_refused_on_resume() {
             series.append(time, &[[0.0; 3]; 3], &[[0, 1, 2]], &[FieldValues::Integer(&[1; 3])]).unwrap();
         }
         drop(series);
-        let file = File::open_rw(&path).unwrap();
+        let file = unlocked().open_rw(&path).unwrap();
         damage(&file.dataset(&format!("VTKHDF/{name}")).unwrap());
         drop(file);
-        let error = PolyDataSeries::open_and_truncate(&path, Cells::Triangles, &fields, 2).err().unwrap().to_string();
+        let error = PolyDataSeries::reopen(&path, Cells::Triangles, &fields, 2).err().unwrap().to_string();
         assert!(error.contains("units.vtkhdf: HDF5: the dataset /VTKHDF/") && error.contains("is damaged"), "{error}");
     }
 }

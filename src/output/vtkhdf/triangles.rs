@@ -99,7 +99,7 @@ mod tests {
         assert_eq!(moments.values::<i32>(1, "mode").unwrap(), [0, 3]);
         assert!(moments.values::<i32>(1, "none").is_err());
         drop(moments);
-        let file = File::open_rw(&path).unwrap();
+        let file = unlocked().open_rw(&path).unwrap();
         file.dataset("VTKHDF/Steps/PointOffsets").unwrap().resize(1).unwrap();
         file.dataset("VTKHDF/Steps/PointDataOffsets/mode").unwrap().write_raw(&[0_i64, -1, 6]).unwrap();
         drop(file);

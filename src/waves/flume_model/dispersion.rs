@@ -12,14 +12,10 @@
 //! neighbouring layers have opposite signs. omega approaches 2 K sqrt(g / d) for short waves. Waves of higher frequency
 //! do not propagate. Exact waves have omega^2 = g k tanh(k d).
 
-use super::record::profile_of_u;
 use crate::waves::theory::regular::linear_wavenumber_per_m;
-use crate::waves::theory::stream_function::cosh_ratio;
 
 /// Values of k d between which the wavenumber is searched [-].
 const RANGE: [f64; 2] = [1e-6, 1e9];
-/// Number of intervals of the sums over the depth.
-const INTERVALS: u32 = 400;
 
 /// Returns the shortest period [s] of waves that propagate in the depth [m] with a number of layers.
 pub fn shortest_period_s(depth_m: f64, gravity: f64, layers: usize) -> f64 {
@@ -49,22 +45,6 @@ pub fn wavelength_error(period_s: f64, depth_m: f64, gravity: f64, layers: usize
     Some(linear_wavenumber_per_m(omega, depth_m, gravity) * depth_m / low - 1.0)
 }
 
-/// Returns the height of the wave that the velocity profile of the flume model makes at a wavemaker, divided by the
-/// height in the flume model, minus 1 [-].
-///
-/// In linear wavemaker theory, the height is proportional to the integral of u cosh(k z) over the depth (Havelock 1929).
-pub fn height_error(kd: f64, layers: usize) -> f64 {
-    let shares = layer_shares(kd, layers);
-    let mean = kd.tanh() / kd;
-    let sums = (0..INTERVALS).map(|i| {
-        let height = (f64::from(i) + 0.5) / f64::from(INTERVALS);
-        let exact = cosh_ratio(kd, height);
-        [mean * profile_of_u(&shares, height) * exact, exact * exact]
-    });
-    let [given, exact] = sums.fold([0.0; 2], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
-    given / exact - 1.0
-}
-
 /// Returns the velocity of each layer divided by the depth mean, from the bed upwards, for a wave with the given k d.
 pub fn layer_shares(kd: f64, layers: usize) -> Vec<f64> {
     let ratio = kd / (2.0 * layers as f64);
@@ -90,7 +70,6 @@ mod tests {
         for layers in 1..=8 {
             // k d = 0.06: the error of the wavelength is of the order (k d)^2 / (12 K^2) = 3e-4 or less.
             assert!(wavelength_error(23.0, 0.5, 9.81, layers).unwrap().abs() < 1e-3);
-            assert!(height_error(0.06, layers).abs() < 1e-3);
             assert!(layer_shares(0.06, layers).iter().all(|share| (share - 1.0).abs() < 2e-3));
         }
         let errors = [2, 4, 8].map(|layers| wavelength_error(1.4, 0.8, 9.81, layers).unwrap());

@@ -1,9 +1,11 @@
 //! Results of a flume run: wave gauges, surface profiles, the shoreline, and the flow in a window, interpolated at any
 //! position and time.
 
+use super::dispersion::layer_shares;
 use super::interpolation::Stencil;
 use super::layered::{Column, SurfacePoint};
 use crate::geometry::profile::Profile;
+use crate::waves::theory::stream_function::cosh_ratio;
 
 /// Depth below which a point counts as dry in interpolation [m]. At a corner of the bed, the mean bed level of a cell
 /// differs from the profile; in films below this depth, the difference would distort the result.
@@ -207,7 +209,7 @@ impl Stencils {
 
 /// Horizontal velocity u at a relative height above the bed (0 to 1), from the layer means. It is linear in the height
 /// squared, which is exact for the parabola a + b height^2 of a long irrotational wave.
-pub(super) fn profile_of_u(layers: &[f64], height: f64) -> f64 {
+fn profile_of_u(layers: &[f64], height: f64) -> f64 {
     let k = layers.len();
     if k == 1 {
         return layers[0];
@@ -217,6 +219,25 @@ pub(super) fn profile_of_u(layers: &[f64], height: f64) -> f64 {
     let below = (1..k - 1).take_while(|&m| node(m) <= square).count();
     let share = (square - node(below)) / (node(below + 1) - node(below));
     layers[below] + share * (layers[below + 1] - layers[below])
+}
+
+/// Returns the height of the wave that the velocity profile of the flume model makes at a wavemaker, divided by the
+/// height in the flume model, minus 1 [-].
+///
+/// `kd` is the exact k d of the wave, `model_kd` the value in the flume model. In linear wavemaker theory, the height is
+/// proportional to the integral of u cosh(k z) over the depth (Havelock 1929).
+pub fn height_error(kd: f64, model_kd: f64, layers: usize) -> f64 {
+    /// Number of intervals of the sums over the depth.
+    const INTERVALS: u32 = 400;
+    let shares = layer_shares(model_kd, layers);
+    let mean = kd.tanh() / kd;
+    let sums = (0..INTERVALS).map(|i| {
+        let height = (f64::from(i) + 0.5) / f64::from(INTERVALS);
+        let exact = cosh_ratio(kd, height);
+        [mean * profile_of_u(&shares, height) * exact, exact * exact]
+    });
+    let [given, exact] = sums.fold([0.0; 2], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
+    given / exact - 1.0
 }
 
 /// Vertical velocity w at a relative height above the bed (0 to 1), linear between the layer interfaces.
@@ -276,5 +297,15 @@ mod tests {
         let (height, time) = record().crest(0);
         // The series is the parabola t (2 - t).
         assert!((height - 1.0).abs() < 1e-12 && (time - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_profile_makes_long_waves_with_their_height() {
+        // The errors in parts per thousand were computed independently from the formulas.
+        let waves = [(0.06, 1.0, 2, 0.0), (2.0, 0.9895, 2, 11.9), (3.0, 0.9959, 2, 48.2), (1.0, 0.9699, 1, -18.2)];
+        for (kd, ratio, layers, expected) in waves {
+            let error = 1e3 * height_error(kd, ratio * kd, layers);
+            assert!((error - expected).abs() < 0.3, "kd = {kd}, {layers} layers: {error}");
+        }
     }
 }
