@@ -122,7 +122,8 @@ fn a_damaged_file_is_refused_on_resume() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("units.vtkhdf");
     let fields = [("unit", FieldKind::Integer)];
-    let damages: [(&str, fn(&Dataset)); 5] = [
+    type Damage = fn(&Dataset);
+    let damages: [(&str, Damage); 5] = [
         ("NumberOfPoints", |dataset| dataset.resize(1).unwrap()),
         ("NumberOfPoints", |dataset| dataset.write_raw(&[3_i64, -3]).unwrap()),
         ("NumberOfPoints", |dataset| dataset.write_raw(&[3, i64::MAX]).unwrap()),
