@@ -92,7 +92,7 @@ fn is_small(error: f64) -> bool {
     error.abs() < NOTICEABLE
 }
 
-/// Warns of noticeable errors and names the number of layers that makes them small.
+/// Warns of noticeable errors. Names the number of layers that makes both small, or at least the wavelength right.
 fn warn(places: &Places, length: f64, layers: usize, check: &mut Checker) {
     let height = if places.at_wavemaker > 0.0 { places.height_error(layers) } else { 0.0 };
     if is_small(length) && is_small(height) {
@@ -107,15 +107,14 @@ fn warn(places: &Places, length: f64, layers: usize, check: &mut Checker) {
         format!("wavelengths {length} in the flume model, and wave heights {height} at the wavemaker")
     };
     let of = |layers: usize| Some((places.wavelength_error(layers)?, places.height_error(layers)));
-    let enough = (1..=MAX_LAYERS).find(|&layers| of(layers).is_some_and(|(l, h)| is_small(l) && is_small(h)));
-    let worse = |(length, height): (f64, f64)| length.abs().max(height.abs());
-    let best = (1..=MAX_LAYERS).min_by(|a, b| {
-        let [a, b] = [*a, *b].map(|layers| of(layers).map_or(f64::INFINITY, worse));
-        a.total_cmp(&b)
-    });
-    let advice = match enough.or(best).filter(|best| *best != layers).map(|best| (best, of(best))) {
-        Some((better, Some((length, height)))) => format!("{better} layers: {}", errors(length, height)),
-        _ => "no other number of layers has smaller errors".to_owned(),
+    let least = |is_enough: &dyn Fn(f64, f64) -> bool| {
+        (1..=MAX_LAYERS).find(|&layers| of(layers).is_some_and(|(length, height)| is_enough(length, height)))
+    };
+    let both_small = least(&|length, height| is_small(length) && is_small(height));
+    let better = both_small.or_else(|| least(&|length, _| is_small(length)).filter(|_| !is_small(length)));
+    let advice = match better.and_then(|layers| Some((layers, of(layers)?))) {
+        Some((better, (length, height))) => format!("{better} layers: {}", errors(length, height)),
+        None => "no number of layers makes both errors small; correct the height of the wave".to_owned(),
     };
     let which = if places.periods.len() == 1 { "" } else { "for some of the waves, " };
     check.warn(format!("flume.layers = {layers}: {which}{}; {advice}", errors(length, height)));
@@ -158,6 +157,8 @@ mod tests {
         let two = read(2, 2.0, SHORT).unwrap();
         assert!(two[0].starts_with("flume.layers = 2: wavelengths 2.9 % too short in the flume model, and"), "{two:?}");
         assert!(two[0].contains("wave heights 3.6 % too low at the wavemaker; 3 layers: wavelengths exact"), "{two:?}");
+        let five = read(5, 2.0, SHORT).unwrap();
+        assert!(five[0].ends_with("no number of layers makes both errors small; correct the height of the wave"));
         let longer = r#"{ "kind": "regular", "height_m": 0.1, "period_s": 1.7 }"#;
         let two = read(2, 2.0, longer).unwrap();
         assert!(two[0].contains("; 4 layers: wavelengths 0."), "{two:?}");
