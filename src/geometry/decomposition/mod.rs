@@ -215,8 +215,8 @@ mod tests {
         let (vertices, triangles) = crate::geometry::convex::union::surface(&blocks);
         let found = decompose(&Solid::new(vertices, triangles).unwrap(), 0.05);
         assert!(!found.parts.is_empty() && found.parts.iter().all(|part| part.inner_radius() >= 0.05));
-        // The plate has 2 % of the volume. Without the plate, this is the error.
-        assert!(found.volume_error < 0.0201, "{}", found.volume_error);
+        // The plate has 2 % of the volume. The search stops at an error of 1.5 %.
+        assert!(found.volume_error < 0.035, "{}", found.volume_error);
     }
 
     #[test]

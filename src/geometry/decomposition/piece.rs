@@ -96,8 +96,15 @@ impl Piece {
             let heights = || face.iter().map(|[a, _]| clip.heights[*a as usize]);
             let (has_low, has_high) = (heights().any(|h| h < 0.0), heights().any(|h| h > 0.0));
             if has_low && has_high {
-                let edges = clip.face(face, half_space.normal.cross(self.area(face)));
-                kept.push(&edges);
+                let area = self.area(face);
+                let edges = clip.face(face, half_space.normal.cross(area));
+                // A cut triangle stays connected, but another face may fall apart.
+                if face.len() == 3 {
+                    kept.push(&edges);
+                } else {
+                    let parts = section::polygons(&clip.vertices, edges.into_iter(), area);
+                    parts.iter().for_each(|part| kept.push(part));
+                }
             } else if has_low || (!has_high && self.area(face).dot(half_space.normal) > 0.0) {
                 // A face in the plane belongs to the body below it.
                 kept.push(face);
@@ -175,7 +182,9 @@ impl Clip {
 
 /// Divides faces into connected bodies. The surface of a cavity goes to the body around it.
 fn connected(vertices: &[DVec3], faces: &Faces) -> Vec<Piece> {
-    let group = section::groups(vertices.len(), &faces.edges);
+    // All edges of a face belong together, also those of its holes.
+    let links = faces.iter().flat_map(|face| face.iter().flat_map(|[a, b]| [[*a, *b], [face[0][0], *a]]));
+    let group = section::groups(vertices.len(), links);
     let mut number: HashMap<u32, usize> = HashMap::new();
     let mut bodies: Vec<Faces> = Vec::new();
     for face in faces.iter().filter(|face| !face.is_empty()) {

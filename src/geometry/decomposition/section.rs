@@ -16,8 +16,12 @@ pub(super) fn area(vertices: &[DVec3], edges: &[Edge]) -> DVec3 {
 /// edges cancel.
 pub(super) fn polygons(vertices: &[DVec3], edges: impl Iterator<Item = Edge>, normal: DVec3) -> Vec<Vec<Edge>> {
     let edges = without_opposites(edges);
-    let group = groups(vertices.len(), &edges);
-    let mut sorted: Vec<(u32, Edge)> = edges.iter().map(|edge| (group[edge[0] as usize], *edge)).collect();
+    let mut used: Vec<u32> = edges.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    let index = |v: u32| used.binary_search(&v).unwrap_or_default() as u32;
+    let group = groups(used.len(), edges.iter().map(|edge| edge.map(index)));
+    let mut sorted: Vec<(u32, Edge)> = edges.iter().map(|edge| (group[index(edge[0]) as usize], *edge)).collect();
     sorted.sort_unstable();
     let outlines = sorted.chunk_by(|(a, _), (b, _)| a == b).map(|part| part.iter().map(|(_, edge)| *edge).collect());
     let (mut outer, holes): (Vec<_>, Vec<_>) =
@@ -59,7 +63,7 @@ fn contains(vertices: &[DVec3], edges: &[Edge], normal: DVec3, point: DVec3) -> 
 }
 
 /// For each vertex, the lowest index of the vertices to which edges connect it.
-pub(super) fn groups(count: usize, edges: &[Edge]) -> Vec<u32> {
+pub(super) fn groups(count: usize, edges: impl Iterator<Item = Edge>) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..count as u32).collect();
     let root = |parent: &mut Vec<u32>, mut v: u32| {
         while parent[v as usize] != v {
@@ -69,7 +73,7 @@ pub(super) fn groups(count: usize, edges: &[Edge]) -> Vec<u32> {
         v
     };
     for [a, b] in edges {
-        let [a, b] = [root(&mut parent, *a), root(&mut parent, *b)];
+        let [a, b] = [root(&mut parent, a), root(&mut parent, b)];
         parent[a.max(b) as usize] = a.min(b);
     }
     (0..count as u32).map(|v| root(&mut parent, v)).collect()
