@@ -112,8 +112,8 @@ fn rounded_tetrapod(around: usize) -> Solid {
 }
 
 /// Largest allowed error in these tests. The program refuses 0.05; the search stops at 0.015, and the simplification of
-/// round parts adds up to 0.015.
-const LIMIT: f64 = 0.03;
+/// round parts adds up to 0.02.
+const LIMIT: f64 = 0.035;
 
 #[test]
 fn catalogue_units_are_divided() {
@@ -138,7 +138,7 @@ fn catalogue_units_are_divided() {
 fn cone_tetrapods_are_divided() {
     let sharp = of_blocks(&tetrahedron_axes().map(|axis| frustum(axis, 0.644, [0.264, 0.151], 40)));
     assert!(volume_error("cone Tetrapod", &sharp) < LIMIT);
-    assert!(volume_error("rounded Tetrapod", &rounded_tetrapod(60)) < LIMIT);
+    assert!(volume_error("rounded Tetrapod", &rounded_tetrapod(48)) < LIMIT);
 }
 
 #[test]

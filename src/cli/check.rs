@@ -200,7 +200,7 @@ fn print_units(units: &Units) {
     if let UnitKind::Stl(stl) = &shape.kind {
         let corners: usize = stl.parts().iter().map(|part| part.corners().len()).sum();
         println!(
-            "  parts       {} with {corners} corners, differ from the unit by {:.1} % of its volume",
+            "  parts       {} with {corners} corners, volume error {:.1} %",
             counted(stl.parts().len(), "convex part"),
             100.0 * stl.volume_error
         );
