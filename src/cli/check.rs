@@ -7,8 +7,8 @@ use clap::Args;
 use super::{CommandError, counted, input::load, run};
 use crate::{
     case::{
-        BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Reference, Sides, Units,
-        Wave,
+        BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Reference, Sides,
+        UnitKind, Units, Wave,
     },
     output::{OutputSize, progress::readable},
     rigid::{RigidSetup, RigidWorld},
@@ -196,6 +196,14 @@ fn print_units(units: &Units) {
     match shape.kind.stability_coefficient() {
         Some(k_d) => println!(", K_D = {k_d}"),
         None => println!(),
+    }
+    if let UnitKind::Stl(stl) = &shape.kind {
+        let corners: usize = stl.parts().iter().map(|part| part.corners().len()).sum();
+        println!(
+            "  parts       {} with {corners} corners, volume error {:.1} %",
+            counted(stl.parts().len(), "convex part"),
+            100.0 * stl.volume_error
+        );
     }
 }
 

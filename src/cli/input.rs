@@ -19,9 +19,28 @@ pub(super) fn read(path: &Path, accepted: &[InputKind]) -> Result<Document, Comm
     if accepted.contains(&document.kind()) { Ok(document) } else { Err(other_kind(path, document.kind())) }
 }
 
+/// Size of an STL file above which its decomposition can take longer than about a second [bytes].
+const LARGE_STL: u64 = 100_000;
+
+/// Prints a line if the program has to divide a unit with a fine mesh into convex parts, because that takes seconds.
+fn announce_decomposition(document: &Document) {
+    let case: serde_json::Value = serde_json::from_str(&document.text).unwrap_or_default();
+    let stl = &case["units"]["stl"];
+    let Some(path) = stl["path"].as_str().filter(|_| stl["parts"][0].is_null()) else { return };
+    let path = Path::new(&document.name).with_file_name(path);
+    if std::fs::metadata(&path).is_ok_and(|file| file.len() > LARGE_STL) {
+        eprintln!("dividing {} into convex parts ...", path.display());
+    }
+}
+
 /// Reads and validates an input file, and prints its warnings.
 pub(super) fn load(path: &Path, accepted: &[InputKind]) -> Result<InputFile, CommandError> {
-    let file = InputFile::from_document(&read(path, accepted)?).map_err(CommandError::refused)?;
+    validate(&read(path, accepted)?)
+}
+
+fn validate(document: &Document) -> Result<InputFile, CommandError> {
+    announce_decomposition(document);
+    let file = InputFile::from_document(document).map_err(CommandError::refused)?;
     show_warnings(file.warnings());
     Ok(file)
 }
@@ -75,9 +94,7 @@ pub(super) fn finished_run(dir: &Path) -> Result<InputKind, CommandError> {
 
 /// Reads and validates the case of a run, and prints its warnings.
 pub(super) fn load_run(dir: &Path, accepted: &[InputKind]) -> Result<InputFile, CommandError> {
-    let file = InputFile::from_document(&read_run(dir, accepted)?).map_err(CommandError::refused)?;
-    show_warnings(file.warnings());
-    Ok(file)
+    validate(&read_run(dir, accepted)?)
 }
 
 /// Returns the error for an input file of the wrong kind; the message names the kind and the right command.

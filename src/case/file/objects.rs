@@ -167,8 +167,8 @@ pub struct StlFile {
     /// Length unit of the files in metres: 1 for metres, 0.001 for millimetres.
     #[serde(default = "default_scale")]
     pub scale: f64,
-    /// Paths of STL files with convex parts that together fill the unit. By default, the program divides the unit into
-    /// convex parts.
+    /// Paths of STL files with convex parts that together fill the unit. This is the precise way. By default, the
+    /// program divides the unit into convex parts by plane cuts; `breakwater check` prints their volume error.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<String>,
 }

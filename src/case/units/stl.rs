@@ -7,15 +7,15 @@ use crate::case::file::StlFile;
 use crate::case::reading::check::{Checker, as_text, more_than};
 use crate::geometry::armour_unit::LARGEST_ROUNDING;
 use crate::geometry::convex::polyhedron::Polyhedron;
-use crate::geometry::decomposition::{self, Decomposition};
+use crate::geometry::decomposition::{self, Decomposition, MOST_PARTS};
 use crate::geometry::solid::Solid;
 use crate::geometry::stl::{self, StlError};
 
 /// Largest allowed volume that convex parts and unit do not have in common, divided by the volume of the unit [-].
 const LARGEST_ERROR: f64 = 0.05;
 
-/// Largest number of files with convex parts.
-const MOST_PARTS: usize = 63;
+/// Largest number of triangles of a file. On two cores, `check` takes about 6 s for this number.
+const MOST_TRIANGLES: usize = 200_000;
 
 /// A unit from STL files and the content of these files. A run saves the content next to its case file.
 #[derive(Debug, Clone)]
@@ -80,6 +80,12 @@ pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mu
         };
         match std::fs::read(&path) {
             Ok(bytes) => match stl::parse(&bytes, &path, file.scale) {
+                Ok(solid) if solid.triangles().len() > MOST_TRIANGLES => {
+                    let given = format!("{:?} with {} triangles", path.display().to_string(), solid.triangles().len());
+                    let advice = "make the mesh coarser; a few thousand triangles describe any unit";
+                    check.reject(key, given, format!("at most {MOST_TRIANGLES} triangles"), advice);
+                    None
+                }
                 Ok(solid) => {
                     let bodies = solid.body_count();
                     if bodies > 1 {
@@ -121,29 +127,29 @@ pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mu
             }
         }
     }
-    let found = if parts.is_empty() {
-        // Parts that are too thin for the rounding radius are removed. Their volume counts as part of `volume_error`.
-        let [low, high] = solid.bounds();
-        let thinnest = rounding_share * (high.z - low.z) / LARGEST_ROUNDING;
-        let mut found = decomposition::decompose(&solid);
-        found.parts.retain(|part| part.inner_radius() >= thinnest);
-        decomposition::measure(&solid, found.parts)
+    let [low, high] = solid.bounds();
+    // The rounding of a part needs this inner radius.
+    let thinnest = rounding_share * (high.z - low.z) / LARGEST_ROUNDING;
+    let (key, advice, found) = if parts.is_empty() {
+        let advice = format!(
+            "give the convex parts as separate STL files in `units.stl.parts`; parts thinner than {} m do not fit \
+             contact.rounding_share = {rounding_share}",
+            as_text(2.0 * thinnest)
+        );
+        ("units.stl.path", advice, decomposition::decompose(&solid, thinnest))
     } else {
-        decomposition::measure(&solid, parts)
+        let advice = "check that the parts fill the unit, have no dents and are in the same place".to_owned();
+        ("units.stl.parts", advice, decomposition::measure(&solid, parts))
     };
     let Decomposition { parts, volume_error } = found;
     if volume_error > LARGEST_ERROR || parts.is_empty() {
-        let key = if file.parts.is_empty() { "units.stl.path" } else { "units.stl.parts" };
-        check.reject(
-            key,
-            format!(
-                "{} convex parts that differ from the unit by {:.1} % of its volume",
-                parts.len(),
-                100.0 * volume_error
-            ),
-            format!("parts that differ by at most {} %", as_text(100.0 * LARGEST_ERROR)),
-            "give the convex parts as separate STL files in `units.stl.parts`",
+        let given = format!(
+            "{} convex parts that differ from the unit by {:.1} % of its volume",
+            parts.len(),
+            100.0 * volume_error
         );
+        let allowed = format!("parts that differ by at most {} %", as_text(100.0 * LARGEST_ERROR));
+        check.reject(key, given, allowed, advice);
         return None;
     }
     Some(StlUnit {

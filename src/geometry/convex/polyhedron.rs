@@ -24,8 +24,12 @@ pub enum PolyhedronError {
 /// of the search grows with the square of this number.
 const MAX_FACES: usize = 1000;
 
-/// Distance below which two corners are merged, relative to the size of the polyhedron [-].
+/// Distance below which a corner lies in a plane, relative to the size of the polyhedron [-].
 const SAME: f64 = 1e-9;
+
+/// Distance below which two corners are merged, relative to the size of the polyhedron [-]. At a corner of more than
+/// three faces, the single-precision coordinates of an STL file give several points.
+const SAME_CORNER: f64 = 1e-5;
 
 /// A plane face.
 #[derive(Debug, Clone, PartialEq)]
@@ -127,7 +131,7 @@ impl Polyhedron {
         for (plane, ring) in faces {
             let mut indices: Vec<usize> = Vec::new();
             for point in ring {
-                let near = |c: &DVec3| c.distance(point) < 10.0 * SAME * extent;
+                let near = |c: &DVec3| c.distance(point) < SAME_CORNER * extent;
                 let index = corners.iter().position(near).unwrap_or_else(|| {
                     corners.push(point);
                     corners.len() - 1
