@@ -124,7 +124,7 @@ fn a_failed_run_keeps_its_last_checkpoint_and_its_failed_state() {
     assert!(error.contains("unit 1") && error.contains("failed.json"), "{error}");
     let time = |file: &str| {
         let text = std::fs::read_to_string(folder.path().join(file)).unwrap();
-        serde_json::from_str::<Value>(&text).unwrap()["world"]["time_s"].as_f64().unwrap()
+        serde_json::from_str::<Value>(&text).unwrap()["state"]["world"]["time_s"].as_f64().unwrap()
     };
     let (kept, failed) = (time("checkpoint.json"), time("failed.json"));
     // The unit falls for one second; checkpoints are written at 0.4 and 0.8 s.
