@@ -111,6 +111,50 @@ fn collect_pointers(value: &serde_json::Value, pointer: String, pointers: &mut V
     pointers.push(pointer);
 }
 
+/// Returns the key, and the limits that a message such as "x.json: a.b = 3: must be at least 1 and at most 2 m" allows.
+fn allowed_limits(line: &str) -> Option<(String, Vec<f64>)> {
+    let (_, rest) = line.split_once(".json: ")?;
+    let (key, rest) = rest.split_once(" = ")?;
+    let range = rest.split_once(": must be ")?.1.split(';').next()?;
+    let is_range =
+        ["at least ", "at most ", "> "].iter().any(|start| range.starts_with(start)) && !range.contains("particle");
+    let range = range.get(if is_range { 0.. } else { range.len().. })?;
+    // A formula can stand before its value, as in "at most 2 / (7 cfl) = 0.571428".
+    let limit = |words: &str| range.split_once(words)?.1.rsplit("= ").next()?.split_whitespace().next()?.parse().ok();
+    let limits: Vec<f64> = ["at least ", "at most "].into_iter().filter_map(limit).collect();
+    (!limits.is_empty()).then(|| (key.to_owned(), limits))
+}
+
+/// A user who takes a limit from a message must not get the same message again.
+#[test]
+fn limits_in_messages_are_accepted() {
+    let mut tried = 0;
+    for (path, _) in bad_cases() {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let (Ok(case), Err(errors)) = (serde_json::from_str::<serde_json::Value>(&text), Case::load(&path)) else {
+            continue;
+        };
+        for (key, limits) in errors.errors.iter().filter_map(|error| allowed_limits(&error.to_string())) {
+            let pointer = format!("/{}", key.replace(['.', '['], "/").replace(']', ""));
+            for limit in &limits {
+                let mut changed = case.clone();
+                // The value in the message can be one that the program derived, without a key in the file.
+                let Some(value) = changed.pointer_mut(&pointer).filter(|value| value.is_number()) else { continue };
+                let whole = value.is_u64() && limit.fract() == 0.0;
+                *value = if whole { serde_json::json!(*limit as u64) } else { serde_json::json!(*limit) };
+                tried += 1;
+                let refused = Case::from_str(&changed.to_string(), &path.display().to_string()).err();
+                let message = refused.map(|errors| errors.to_string()).unwrap_or_default();
+                let again = message
+                    .lines()
+                    .find(|line| allowed_limits(line).is_some_and(|other| other == (key.clone(), limits.clone())));
+                assert_eq!(again, None, "{}: {key} = {limit} is refused although a message names it", path.display());
+            }
+        }
+    }
+    assert!(tried > 90, "only {tried} limits found");
+}
+
 #[test]
 fn program_refuses_every_bad_case_with_exit_code_2() {
     for (path, expected) in bad_cases() {

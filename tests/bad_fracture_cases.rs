@@ -101,6 +101,35 @@ fn load_with_mesh(folder: &Path, mesh: &[u8]) -> Result<FractureCase, String> {
     FractureCase::from_str(&valid_case_and_mesh().0, name.to_str().unwrap()).map_err(|errors| errors.to_string())
 }
 
+/// Returns the warnings for a cube with the pre-crack "crack mid", whose only body has the keys `body`.
+fn warnings_for_cracked_cube(body: &str, joints: &str) -> Vec<String> {
+    let mut case: serde_json::Value = serde_json::from_str(&valid_case_and_mesh().0).unwrap();
+    case["bodies"] = json!([serde_json::from_str::<serde_json::Value>(body).unwrap()]);
+    case["constraints"] = json!([]);
+    case["friction"] = json!([{ "between": ["unit", "unit"], "coefficient": 0.6 }]);
+    case["fracture"] = json!({ "mesh": "cube_with_crack_renumbered.msh", "joints": joints });
+    let name = root().join("tests/data/meshes/case.json");
+    FractureCase::from_str(&case.to_string(), name.to_str().unwrap()).unwrap().warnings
+}
+
+#[test]
+fn pre_cracks_and_strengths_without_effect_are_reported() {
+    let cracks = r#"{ "name": "unit", "material": "concrete", "cracks": true }"#;
+    let has_words = |warnings: &[String], words: &str| warnings.iter().any(|warning| warning.contains(words));
+    let closed = "4 of 4 faces of the pre-crack \"crack mid\" stay closed, because their body cannot crack";
+    let unused = "\"concrete\" has a strength, but no body of this material can crack";
+    let sound = warnings_for_cracked_cube(cracks, "tied");
+    assert!(!has_words(&sound, closed) && !has_words(&sound, unused), "{sound:?}");
+    let whole = r#"{ "name": "unit", "material": "concrete" }"#;
+    let rigid = r#"{ "name": "unit", "material": "concrete", "rigid": true }"#;
+    for body in [whole, rigid] {
+        let warnings = warnings_for_cracked_cube(body, "tied");
+        assert!(has_words(&warnings, closed) && has_words(&warnings, unused), "{warnings:?}");
+    }
+    let unbreakable = warnings_for_cracked_cube(cracks, "unbreakable");
+    assert!(has_words(&unbreakable, closed), "{unbreakable:?}");
+}
+
 #[test]
 fn every_corrupted_mesh_is_refused_with_its_message() {
     let folder = tempfile::tempdir().unwrap();

@@ -130,7 +130,11 @@ fn bad_reference_folders_are_refused_with_key_value_and_advice() {
             json!([{ "name": "code", "role": "published_simulation" }]),
             "must be a list with a measured series",
         ),
-        ("/waves/0/height_m", json!(-0.1), "waves[0].height_m = -0.1: must be > 0"),
+        ("/waves/0/height_m", json!(-0.1), "waves[0].height_m = -0.1: must be at least 0.0005 and at most 5 m"),
+        ("/waves/0/height_m", json!(100.0), "waves[0].height_m = 100: must be at least 0.0005 and at most 5 m"),
+        ("/damage_distance_m", json!(50.0), "damage_distance_m = 50: must be > 0 and at most 20 m; write it in metres"),
+        ("/damage_distance_m", json!(15.0), "waves[0].height_m = 0.1: must be at least 0.15"),
+        ("/series/2/dp_m", json!(10.0), "series[2].dp_m = 10: must be > 0 and at most 0.05 m"),
         (
             "/waves/0/period_s",
             json!(1.0),
@@ -152,11 +156,29 @@ fn bad_reference_folders_are_refused_with_key_value_and_advice() {
         let message = refused(key, value);
         assert!(message.contains("reference.json: ") && message.contains(words), "{key}: {words}\nin {message}");
     }
-    let folder = tempfile::tempdir().unwrap();
-    write_reference(folder.path(), &reference());
-    fs::write(folder.path().join("short.csv"), "first,second,code\n0.02,0.02,0\n0.08,wet,0\n0.02,0.02,0\n").unwrap();
-    let message = Reference::load(folder.path()).unwrap_err().to_string();
-    assert!(message.contains("line 3 is not 3 numbers; separate the numbers by commas"), "{message}");
+    for (file, text, words) in [
+        (
+            "short.csv",
+            "first,second,code\n0.02,0.02,0\n0.08,wet,0\n0.02,0.02,0\n",
+            "line 3 is not 3 numbers; separate the numbers by commas",
+        ),
+        (
+            "short.csv",
+            "first,second,code\n20,20,0\n80,80,0\n20,20,0\n",
+            "waves[1].displacements: first = 20: must be at least 0 and at most 5 m",
+        ),
+        (
+            "spacing.csv",
+            "dp_m,deviation_percent\n20,-50\n10,-100\n",
+            "waves[1].convergence: dp_m = 20: must be > 0 and at most 0.05 m",
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        write_reference(folder.path(), &reference());
+        fs::write(folder.path().join(file), text).unwrap();
+        let message = Reference::load(folder.path()).unwrap_err().to_string();
+        assert!(message.contains(words), "{words}\nin {message}");
+    }
 }
 
 #[test]

@@ -16,15 +16,28 @@ pub(super) fn read(path: &Path, accepted: &[InputKind]) -> Result<Document, Comm
         return Err(CommandError::refused(format!("{}: {what}", path.display())));
     }
     let document = Document::read(path).map_err(CommandError::refused)?;
-    if accepted.contains(&document.kind()) { Ok(document) } else { Err(other_kind(path, document.kind())) }
+    if !accepted.contains(&document.kind()) {
+        return Err(other_kind(path, document.kind()));
+    }
+    announce_decomposition(&document);
+    Ok(document)
 }
 
 /// Size of an STL file above which its decomposition can take longer than about a second [bytes].
 const LARGE_STL: u64 = 100_000;
 
-/// Prints a line if the program has to divide a unit with a fine mesh into convex parts, because that takes seconds.
+/// Prints a line if the program has to divide a unit with a fine mesh into convex parts, because that takes seconds. The
+/// document is a case, or a sweep of a case.
 fn announce_decomposition(document: &Document) {
     let case: serde_json::Value = serde_json::from_str(&document.text).unwrap_or_default();
+    if let (InputKind::Sweep, Some(path)) = (document.kind(), case["case"].as_str()) {
+        if let Ok(document) = Document::read(&Path::new(&document.name).with_file_name(path))
+            && document.kind() != InputKind::Sweep
+        {
+            announce_decomposition(&document);
+        }
+        return;
+    }
     let stl = &case["units"]["stl"];
     let Some(path) = stl["path"].as_str().filter(|_| stl["parts"][0].is_null()) else { return };
     let path = Path::new(&document.name).with_file_name(path);
@@ -39,7 +52,6 @@ pub(super) fn load(path: &Path, accepted: &[InputKind]) -> Result<InputFile, Com
 }
 
 fn validate(document: &Document) -> Result<InputFile, CommandError> {
-    announce_decomposition(document);
     let file = InputFile::from_document(document).map_err(CommandError::refused)?;
     show_warnings(file.warnings());
     Ok(file)

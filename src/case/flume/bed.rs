@@ -1,7 +1,7 @@
 //! The validated flume: bed, mound and still water level.
 
 use crate::case::file::{FlumeFile, MoundFile, ShorewardEndFile};
-use crate::case::reading::check::{Checker, as_text, at_least, more_than};
+use crate::case::reading::check::{Checker, as_text, at_least, lower_limit, more_than};
 use crate::geometry::profile::Profile;
 use crate::waves::flume_model::layered::{Friction, RightEnd};
 
@@ -115,7 +115,7 @@ fn validate_model(file: &FlumeFile, check: &mut Checker) {
             check.reject(
                 "flume.cell_m",
                 as_text(file.cell_m),
-                format!("at least {} m, for at most {MOST_CELLS} cells in the flume", as_text(length / MOST_CELLS)),
+                format!("at least {} m, for at most {MOST_CELLS} cells in the flume", lower_limit(length / MOST_CELLS)),
                 "write a larger cell length or shorten `flume.bed_m`",
             );
         }

@@ -5,7 +5,7 @@ use super::obstacles;
 use super::site::Site;
 use super::zones::{self, DampingZone, RelaxationZone};
 use crate::case::file::{DomainFile, Sides, WaterFile};
-use crate::case::reading::check::{Checker, as_text, at_least, more_than};
+use crate::case::reading::check::{Checker, as_text, at_least, lower_limit, more_than};
 use crate::geometry::axis_box::AxisBox;
 
 /// Largest number of particles along one direction.
@@ -227,7 +227,7 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
             as_text(width),
             format!(
                 "at least 4h + dp = {} m with periodic sides; otherwise a particle acts on its own image",
-                as_text(least)
+                lower_limit(least)
             ),
             "widen the domain or write a smaller `domain.dp_m`",
         );

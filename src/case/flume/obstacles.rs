@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::bed::Flume;
 use crate::case::file::{BoxFile, DomainFile, Sides};
-use crate::case::reading::check::{Checker, as_text};
+use crate::case::reading::check::{Checker, as_text, lower_limit, upper_limit};
 use crate::geometry::axis_box::AxisBox;
 
 /// Largest number of obstacles in one case.
@@ -44,7 +44,7 @@ pub fn validate(file: &DomainFile, width: f64, flume: &Flume, check: &mut Checke
             Some(other) => check.reject(
                 &path,
                 corners(&obstacle),
-                format!("at least {} m from domain.obstacles[{other}]", as_text(NARROWEST * file.dp_m)),
+                format!("at least {} m from domain.obstacles[{other}]", lower_limit(NARROWEST * file.dp_m)),
                 "the gap is too narrow for water: merge the two obstacles, or move one of them",
             ),
             None => found.push(obstacle),
@@ -97,7 +97,11 @@ fn validate_one(
         check.reject(
             &format!("{path}.low_m[2]"),
             as_text(low.z),
-            format!("at most {} m, the ground, or at least {} m", as_text(lowest), as_text(highest + NARROWEST * dp)),
+            format!(
+                "at most {} m, the ground, or at least {} m",
+                upper_limit(lowest),
+                lower_limit(highest + NARROWEST * dp)
+            ),
             "let the obstacle stand on the ground, or leave room for the water below it",
         );
     }
@@ -122,7 +126,7 @@ fn validate_extent(path: &str, axis: usize, [low, high]: [f64; 2], ends: [f64; 2
             as_text(high),
             format!(
                 "at least {} m, {THINNEST} particle spacings above the {name} of `low_m`",
-                as_text(low + THINNEST * dp)
+                lower_limit(low + THINNEST * dp)
             ),
             "write the lower corner as `low_m`, and make the box thick enough",
         );
@@ -131,7 +135,7 @@ fn validate_extent(path: &str, axis: usize, [low, high]: [f64; 2], ends: [f64; 2
         let allowed = if ends[0].is_finite() {
             format!("inside the domain, {} to {} m", as_text(ends[0]), as_text(ends[1]))
         } else {
-            format!("at most {} m, the top of the walls", as_text(ends[1]))
+            format!("at most {} m, the top of the walls", upper_limit(ends[1]))
         };
         check.reject(
             &format!("{path}.{key}[{axis}]"),
@@ -149,7 +153,7 @@ fn validate_gaps(path: &str, axis: usize, gaps: [f64; 2], dp: f64, check: &mut C
             check.reject(
                 &format!("{path}.{key}[{axis}]"),
                 format!("{} m from the end of the domain", as_text(gap)),
-                format!("0, or at least {} m", as_text(NARROWEST * dp)),
+                format!("0, or at least {} m", lower_limit(NARROWEST * dp)),
                 "let the obstacle touch the end of the domain, or leave room for the water in the gap",
             );
         }

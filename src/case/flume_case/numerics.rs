@@ -1,7 +1,7 @@
 //! Validates the properties of the water and the settings of the SPH scheme.
 
 use crate::case::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Viscosity, WallSlip};
-use crate::case::reading::check::{Checker, as_text, at_least};
+use crate::case::reading::check::{Checker, at_least, upper_limit};
 
 /// Properties of the water; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -186,7 +186,7 @@ fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
         check.reject(
             "numerics.diffusion_delta",
             file.diffusion_delta,
-            format!("at most 2 / (7 cfl) = {} with numerics.cfl = {}", as_text(limit), file.cfl),
+            format!("at most 2 / (7 cfl) = {} with numerics.cfl = {}", upper_limit(limit), file.cfl),
             "larger values are unstable; 0.1 is usual",
         );
     }

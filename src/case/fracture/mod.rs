@@ -102,6 +102,7 @@ fn validate(file: &FractureFile, document: &Document, check: &mut Checker) -> Op
     setup.loads = loads::validate(file, &mesh, check);
     warn_of_coarse_mesh(&setup, &mesh, check);
     warn_of_unused_strength(file, check);
+    warn_of_ignored_cracks(&setup, &mesh, check);
     let mut kept = file.clone();
     kept.fracture.mesh = FractureCase::MESH.to_owned();
     let text = document.stored_text(file, &kept);
@@ -196,6 +197,26 @@ fn validate_size(mesh: &PreparedMesh, scale: f64, check: &mut Checker) -> bool {
         check.warn(format!("fracture.mesh = {given}: for a mesh in millimetres, write `scale` 0.001"));
     }
     size <= 100.0
+}
+
+/// Warns of pre-cracks in bodies that cannot crack: they stay closed.
+fn warn_of_ignored_cracks(setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) {
+    let can_crack = |tet: usize| setup.bodies.iter().any(|body| body.cohesion.is_some() && body.tets.contains(&tet));
+    for set in &mesh.faces.cracks {
+        let closed = set.faces.iter().filter(|face| {
+            let [tet, _] = mesh.faces.interfaces[**face as usize].tets;
+            !can_crack(tet as usize)
+        });
+        let closed = closed.count();
+        if closed > 0 {
+            check.warn(format!(
+                "fracture.mesh: {closed} of {} faces of the pre-crack {:?} stay closed, because their body cannot crack; \
+                 write \"cracks\": true in this body, with `joints` that can break",
+                set.faces.len(),
+                set.name
+            ));
+        }
+    }
 }
 
 /// Warns if a material has a strength but no body can crack.

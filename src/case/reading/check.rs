@@ -59,6 +59,9 @@ impl Checker {
     }
 }
 
+/// Relative rounding error of a derived limit [-]. A number that exceeds a limit by less than this equals the limit.
+const ROUNDING: f64 = 1e-12;
+
 /// An interval of allowed numbers; each end is open or closed.
 #[derive(Debug, Clone, Copy)]
 pub struct Range {
@@ -90,43 +93,58 @@ impl Range {
     }
 
     fn contains(self, value: f64) -> bool {
-        let low = if self.low_open { value > self.low } else { value >= self.low };
-        let high = if self.high_open { value < self.high } else { value <= self.high };
-        low && high
+        let low = if self.low_open { value > self.low } else { value >= self.low - ROUNDING * self.low.abs() };
+        let high = if self.high_open { value < self.high } else { value <= self.high + ROUNDING * self.high.abs() };
+        value.is_finite() && low && high
     }
 
     fn text(self) -> String {
         let low = if self.low_open { ">" } else { "at least" };
         let high = if self.high_open { "<" } else { "at most" };
-        format!("{low} {} and {high} {}", rounded_limit(self.low, true), rounded_limit(self.high, false))
+        format!("{low} {} and {high} {}", lower_limit(self.low), upper_limit(self.high))
     }
 }
 
-/// Formats a limit for messages, rounded into the allowed range: upwards or downwards.
+/// Formats the smallest allowed number for messages, rounded up, so that the number in the message is allowed too.
+pub fn lower_limit(limit: f64) -> String {
+    rounded_limit(limit, true)
+}
+
+/// Formats the largest allowed number for messages, rounded down, so that the number in the message is allowed too.
+pub fn upper_limit(limit: f64) -> String {
+    rounded_limit(limit, false)
+}
+
 fn rounded_limit(limit: f64, upwards: bool) -> String {
-    let text = as_text(limit);
-    let shown: f64 = text.parse().unwrap_or(limit);
-    if shown == limit || (shown > limit) == upwards {
-        return text;
+    let shown: f64 = as_text(limit).parse().unwrap_or(limit);
+    if (shown - limit).abs() <= ROUNDING * limit.abs() || (shown > limit) == upwards {
+        return as_text(limit);
     }
-    // Move the last digit of the text by one.
-    let decimals = text.split_once('.').map_or(0, |(_, digits)| digits.len() as i32);
-    let step = 10_f64.powi(-decimals);
-    if text.contains('e') { limit.to_string() } else { as_text(if upwards { shown + step } else { shown - step }) }
+    // Move the last of the digits that `as_text` shows by one.
+    let step = if shows_exponent(limit) { 1e-5 * 10_f64.powf(limit.abs().log10().floor()) } else { 1.0 / scale(limit) };
+    as_text(if upwards { shown + step } else { shown - step })
 }
 
 /// Formats a number for messages, with at most six significant digits and six decimals. Integers keep all digits.
 pub fn as_text(value: f64) -> String {
-    if value == 0.0 || (1e-4..1e7).contains(&value.abs()) {
-        // Six decimals are enough for any case file and hide the rounding errors of derived values.
-        let decimals = 5 - value.abs().max(0.1).log10().floor() as i32;
-        let shift = 10_f64.powi(decimals.max(0));
-        format!("{}", (value * shift).round() / shift)
-    } else {
+    if shows_exponent(value) {
         // Rounding to six digits; the second conversion removes trailing zeros.
         let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
         format!("{rounded:e}")
+    } else {
+        format!("{}", (value * scale(value)).round() / scale(value))
     }
+}
+
+fn shows_exponent(value: f64) -> bool {
+    value != 0.0 && !(1e-4..1e7).contains(&value.abs())
+}
+
+/// Returns 10 to the power of the number of decimals that a message shows. Six decimals are enough for any case file and
+/// hide the rounding errors of derived values.
+fn scale(value: f64) -> f64 {
+    let decimals = 5 - value.abs().max(0.1).log10().floor() as i32;
+    10_f64.powi(decimals.max(0))
 }
 
 #[cfg(test)]
@@ -141,6 +159,11 @@ mod tests {
         assert_eq!(range.text(), "at least 0.166667 and at most 0.666666");
         assert!(range.contains(0.166667) && range.contains(0.666666));
         assert_eq!(at_least(0.1).up_to(0.3).text(), "at least 0.1 and at most 0.3");
+        let sum = 0.1 + 0.2;
+        assert_eq!(at_least(sum).up_to(2.0 * sum).text(), "at least 0.3 and at most 0.6");
+        assert!(at_least(sum).contains(0.3));
+        assert_eq!(at_least(1.1000001).up_to(1.1999999).text(), "at least 1.10001 and at most 1.19999");
+        assert_eq!(at_least(1.2e-7 / 0.9).up_to(1.1e8 / 0.9).text(), "at least 1.33334e-7 and at most 1.22222e8");
     }
 
     #[test]

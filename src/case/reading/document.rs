@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::de::{DeserializeOwned, IgnoredAny};
 
 use super::check::Checker;
-use super::error::{CaseError, CaseErrors};
+use super::error::{CaseError, CaseErrors, is_misspelt};
 use super::parse::{RENAMED_KEYS, parse, syntax_error};
 
 /// Largest allowed size of an input file [bytes].
@@ -84,19 +84,26 @@ impl Document {
         Ok(Self { name, text, keys })
     }
 
-    /// Returns the kind of the file. A file without a key of another kind counts as a flume case.
+    /// Returns the kind of the file. A file without a key of another kind counts as a flume case. A misspelt main key
+    /// still decides the kind, so that the message names the right keys.
     pub fn kind(&self) -> InputKind {
-        let has = |key: &str| self.has(key);
-        let has_flume = has("flume") || has("domain");
+        let has_any = |keys: &[&str]| keys.iter().any(|key| self.has(key));
         match () {
-            () if has("vary") => InputKind::Sweep,
-            () if has("dry_test") || has("dry") => InputKind::DryTest,
+            () if self.has("vary") => InputKind::Sweep,
+            () if self.has("dry") || self.has_similar("dry_test") => InputKind::DryTest,
             // Old flume cases use the key `fracture` for the breakage analysis.
-            () if has("fracture") && !has_flume => InputKind::Fracture,
-            () if has("series") && !has_flume => InputKind::Reference,
-            () if has("poses") && !has_flume => InputKind::Placement,
+            () if has_any(&["flume", "domain"]) => InputKind::Flume,
+            () if self.has("bodies") || self.has_similar("fracture") => InputKind::Fracture,
+            () if has_any(&["series", "waves"]) => InputKind::Reference,
+            () if has_any(&["poses", "packing_density"]) => InputKind::Placement,
+            () if self.has("case") || self.has_similar("vary") => InputKind::Sweep,
             () => InputKind::Flume,
         }
+    }
+
+    /// Returns true if a key of the file is `key` or differs from it by at most two letters.
+    fn has_similar(&self, key: &str) -> bool {
+        self.keys.iter().any(|found| is_misspelt(found, key))
     }
 
     fn has(&self, key: &str) -> bool {
@@ -150,4 +157,24 @@ fn read_text(path: &Path) -> Result<String, String> {
         return Err(format!("larger than {} MiB, the limit for input files", LARGEST_FILE >> 20));
     }
     Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_main_key_keeps_the_kind_of_the_file() {
+        let kind = |text: &str| Document::new(text, "x.json").unwrap().kind();
+        assert_eq!(kind(r#"{ "title": "", "case": "a.json", "varry": [] }"#), InputKind::Sweep);
+        assert_eq!(kind(r#"{ "title": "", "cas": "a.json", "vari": [] }"#), InputKind::Sweep);
+        assert_eq!(kind(r#"{ "dry_tset": {}, "flume": {}, "domain": {} }"#), InputKind::DryTest);
+        assert_eq!(kind(r#"{ "fractre": {}, "bodies": [] }"#), InputKind::Fracture);
+        assert_eq!(kind(r#"{ "fracture": {}, "bodis": [] }"#), InputKind::Fracture);
+        assert_eq!(kind(r#"{ "title": "", "packing_density": 1, "pose": [] }"#), InputKind::Placement);
+        assert_eq!(kind(r#"{ "source": "", "serie": [], "waves": [], "notes": [] }"#), InputKind::Reference);
+        assert_eq!(kind(r#"{ "flumme": {}, "domian": {}, "wave": {}, "units": {} }"#), InputKind::Flume);
+        assert_eq!(kind(r#"{ "flume": {}, "fracture": {}, "friction": [] }"#), InputKind::Flume);
+        assert_eq!(kind("[1]"), InputKind::Flume);
+    }
 }

@@ -99,6 +99,11 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
+/// Returns true if `word` equals `key` or differs from it by at most two letters.
+pub fn is_misspelt(word: &str, key: &str) -> bool {
+    word.len().abs_diff(key.len()) <= 2 && edit_distance(word, key) <= 2
+}
+
 /// Returns the Levenshtein distance: the number of insertions, deletions and replacements that turn `a` into `b`.
 fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();

@@ -6,7 +6,7 @@ use super::{Reference, ReferenceWave, Resolution, Series};
 use crate::case::{
     file::{ReferenceFile, ReferenceWaveFile, SeriesRole},
     reading::{
-        check::{Checker, at_least, more_than},
+        check::{Checker, Range, at_least, more_than},
         document::Document,
         error::CaseErrors,
     },
@@ -14,6 +14,13 @@ use crate::case::{
 
 /// Largest number of units in a series [-].
 const MAX_UNITS: u32 = 10_000;
+
+/// Largest damage distance [m]: more than the height of the largest armour units.
+const LONGEST_DAMAGE_DISTANCE_M: f64 = 20.0;
+
+/// Largest ratio of a wave height or displacement to the damage distance, and smallest ratio of a wave height divided
+/// into 1 [-]. Lengths in different units, for example metres and millimetres, exceed it.
+const LARGEST_RATIO: f64 = 100.0;
 
 impl Reference {
     /// Reads and validates a reference folder.
@@ -72,9 +79,9 @@ fn check_keys(file: &ReferenceFile, check: &mut Checker) {
     check.number(
         "damage_distance_m",
         file.damage_distance_m,
-        more_than(0.0).up_to(1000.0),
+        more_than(0.0).up_to(LONGEST_DAMAGE_DISTANCE_M),
         "m",
-        "the unit's height is usual",
+        "write it in metres; the unit's height is usual",
     );
     if !file.series.iter().any(|series| series.role == SeriesRole::Measured) {
         let count = format!("{} series", file.series.len());
@@ -91,7 +98,8 @@ fn check_keys(file: &ReferenceFile, check: &mut Checker) {
             );
         }
         if let Some(dp) = series.dp_m {
-            check.number(&format!("{key}.dp_m"), dp, more_than(0.0).up_to(100.0), "m", "leave it out for measurements");
+            let advice = "the spacing is in metres and smaller than the damage distance; leave it out for measurements";
+            check.number(&format!("{key}.dp_m"), dp, more_than(0.0).up_to(file.damage_distance_m), "m", advice);
         }
     }
     if file.waves.is_empty() {
@@ -99,7 +107,8 @@ fn check_keys(file: &ReferenceFile, check: &mut Checker) {
     }
     for (index, wave) in file.waves.iter().enumerate() {
         let key = format!("waves[{index}]");
-        check.number(&format!("{key}.height_m"), wave.height_m, more_than(0.0).up_to(100.0), "m", "write it in metres");
+        let advice = "a wave height of this size does not fit the damage distance; write both in metres";
+        check.number(&format!("{key}.height_m"), wave.height_m, heights(file), "m", advice);
         if let Some(period) = wave.period_s {
             check.number(
                 &format!("{key}.period_s"),
@@ -117,6 +126,11 @@ fn check_keys(file: &ReferenceFile, check: &mut Checker) {
             check.reject(&key, words, "different from the other waves", "give the period, or remove one wave");
         }
     }
+}
+
+/// Returns the wave heights that fit the damage distance.
+fn heights(file: &ReferenceFile) -> Range {
+    at_least(file.damage_distance_m / LARGEST_RATIO).up_to(LARGEST_RATIO * file.damage_distance_m)
 }
 
 fn read_wave(
@@ -137,20 +151,23 @@ fn read_wave(
     }
     let mut column = |name: &str, range| {
         let values = table.column(name, &key, check)?;
-        let advice = "a displacement is a horizontal distance in metres";
+        let advice = "a displacement is a horizontal distance in metres, like the damage distance";
         let is_sound = values.iter().all(|value| check.number(&format!("{key}: {name}"), *value, range, "m", advice));
         is_sound.then_some(values)
     };
     let series: Vec<Series> = (file.series.iter())
         .filter_map(|series| {
             let (name, role, dp_m) = (series.name.clone(), series.role, series.dp_m);
-            let displacement_m = column(&name, at_least(0.0).up_to(1e6))?;
+            let displacement_m = column(&name, at_least(0.0).up_to(LARGEST_RATIO * file.damage_distance_m))?;
             Some(Series { name, role, dp_m, displacement_m })
         })
         .collect();
     let convergence = match &wave.convergence {
         None => Vec::new(),
-        Some(name) => read_convergence(name, &format!("waves[{index}].convergence"), folder, files, check)?,
+        Some(name) => {
+            let spacings = more_than(0.0).up_to(file.damage_distance_m);
+            read_convergence(name, &format!("waves[{index}].convergence"), spacings, folder, files, check)?
+        }
     };
     let inner = file.inner_units.unwrap_or([1, file.units]).map(|unit| unit as usize);
     (check.count() == before).then_some(ReferenceWave {
@@ -167,6 +184,7 @@ fn read_wave(
 fn read_convergence(
     name: &str,
     key: &str,
+    spacings: Range,
     folder: &Path,
     files: &mut Vec<(String, Vec<u8>)>,
     check: &mut Checker,
@@ -178,8 +196,8 @@ fn read_convergence(
         Some(table.rows[row][column]).filter(|value| value.is_finite())
     };
     let resolution = |row: usize| {
-        let advice = "particle spacings are in metres";
-        let is_sound = check.number(&format!("{key}: dp_m"), dp[row], more_than(0.0).up_to(100.0), "m", advice)
+        let advice = "particle spacings are in metres and smaller than the damage distance";
+        let is_sound = check.number(&format!("{key}: dp_m"), dp[row], spacings, "m", advice)
             && check.number(
                 &format!("{key}: deviation_percent"),
                 deviation[row],

@@ -5,7 +5,7 @@ use super::shape::UnitShape;
 use super::{MAX_UNITS, UnitPose};
 use crate::case::file::{Sides, UnitsFile};
 use crate::case::flume::site::Site;
-use crate::case::reading::check::{Checker, as_text};
+use crate::case::reading::check::{Checker, as_text, lower_limit, upper_limit};
 
 /// Tolerance on the position of a unit [m]. It allows for rounding of the numbers in the file.
 const SLACK: f64 = 1e-6;
@@ -70,7 +70,7 @@ fn validate_centre(path: &str, centre: &[f64; 3], shape: &UnitShape, site: &Site
             check.reject(
                 &format!("{path}[{axis}]"),
                 as_text(value),
-                format!("at least {} and at most {} m", as_text(low), as_text(high)),
+                format!("at least {} and at most {} m", lower_limit(low), upper_limit(high)),
                 "the whole unit must stand on or above the ground, between the walls and below their top",
             );
         }

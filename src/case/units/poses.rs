@@ -9,7 +9,7 @@ use super::shape::UnitShape;
 use super::{MAX_UNITS, UnitPose};
 use crate::case::file::{PlacementFile, PoseFile, Sides, UnitsFile};
 use crate::case::flume::site::Site;
-use crate::case::reading::check::{Checker, as_text};
+use crate::case::reading::check::{Checker, as_text, lower_limit, upper_limit};
 use crate::case::reading::document::Document;
 
 /// Tolerance on the length of a quaternion [-]. It allows for rounding to three digits in the file; the quaternion is
@@ -104,7 +104,7 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Un
             check.reject(
                 &format!("{path}.centre_m[{axis}]"),
                 as_text(centre[axis]),
-                format!("at least {} and at most {} m", as_text(low), as_text(high)),
+                format!("at least {} and at most {} m", lower_limit(low), upper_limit(high)),
                 "the centre of a unit must lie above the ground, between the walls and below their top",
             );
         }

@@ -6,7 +6,7 @@ use super::shape::{UnitKind, UnitShape};
 use super::{MAX_UNITS, UnitPose};
 use crate::case::file::{Orientation, Sides, UnitsFile};
 use crate::case::flume::site::Site;
-use crate::case::reading::check::{Checker, as_text, at_least, more_than};
+use crate::case::reading::check::{Checker, as_text, at_least, lower_limit, more_than, upper_limit};
 
 /// The row that the case file describes; SI units.
 #[derive(Debug, Clone, Copy)]
@@ -84,14 +84,14 @@ pub fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> 
                     "units.count",
                     row.count,
                     format!("such that the row, {} m wide, fits between the walls", as_text(widest)),
-                    format!("write fewer units, a smaller pitch or a width of more than {} m", as_text(widest)),
+                    format!("write fewer units, a smaller pitch or a width of at least {} m", lower_limit(widest)),
                 );
             } else if first_y < reach || first_y + length > site.width - reach {
                 let last = site.width - reach - length;
                 check.reject(
                     "units.first_y_m",
                     as_text(first_y),
-                    format!("at least {} and at most {} m between the walls", as_text(reach), as_text(last)),
+                    format!("at least {} and at most {} m between the walls", lower_limit(reach), upper_limit(last)),
                     "leave it out to centre the row",
                 );
             }
@@ -138,7 +138,7 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
         check.reject(
             "units.first_y_m",
             as_text(first_y),
-            format!("at least 0 and at most {} m", as_text(last)),
+            format!("at least 0 and at most {} m", upper_limit(last)),
             "leave it out to centre the row",
         );
     }

@@ -5,7 +5,7 @@ use super::wavemaker::Wavemaker;
 use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
 use crate::case::flume::zones::RelaxationZone;
-use crate::case::reading::check::{Checker, as_text, at_least};
+use crate::case::reading::check::{Checker, as_text, at_least, lower_limit};
 use crate::waves::theory::regular::RegularWave;
 
 /// Largest allowed stroke of a paddle / length of the particle domain [-].
@@ -73,7 +73,7 @@ fn validate_distance(limit: &str, nearest: f64, domain: &Domain, check: &mut Che
         check.reject(
             "domain.x_m[0]",
             as_text(domain.x[0]),
-            format!("{limit}, > {} m", as_text(nearest)),
+            format!("{limit}, > {} m", lower_limit(nearest)),
             "move the seaward end of the domain shoreward; the flume model computes the wave up to this end",
         );
     }

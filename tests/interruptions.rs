@@ -1,0 +1,218 @@
+//! Runs that are killed at random moments, and runs that fill their disk: after `resume`, their files equal those of an
+//! unbroken run.
+//!
+//! The short test is part of the suite. The long tests are the campaigns; their commands are in `ignore`.
+
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output, Stdio},
+    thread::sleep,
+    time::{Duration, Instant},
+};
+
+use serde_json::{Value, json};
+
+/// A tank whose water falls onto a block: many checkpoints in a short run.
+fn tank() -> Value {
+    json!({
+        "title": "tank",
+        "flume": { "bed_m": [[0.0, 0.0], [1.0, 0.0]], "still_water_level_m": 0.3, "material": "stone" },
+        "domain": { "x_m": [0.0, 1.0], "sides": "two_dimensional", "top_z_m": 0.5, "dp_m": 0.025,
+                    "water": { "kind": "block", "x_m": [0.0, 0.5], "top_z_m": 0.3 } },
+        "numerics": { "hold_units_s": 0.02 },
+        "units": { "shape": "cuboid", "size_m": [0.1, 0.1, 0.1], "mass_kg": 2.3, "material": "stone",
+                   "centres_m": [[0.8, 0.0, 0.05]] },
+        "materials": [{ "name": "stone", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
+        "friction": [{ "between": ["stone", "stone"], "coefficient": 0.5 }],
+        "output": { "fluid_interval_s": 0.05, "units_interval_s": 0.02, "series_interval_s": 0.005,
+                    "checkpoint_interval_s": 0.02 },
+        "stop": { "duration_s": 0.6 }
+    })
+}
+
+/// The case of the tutorial, two Tetrapods under a solitary wave, with a checkpoint every 0.02 s.
+fn tutorial() -> Value {
+    let mut case: Value = serde_json::from_str(include_str!("../cases/tutorial/units.json")).unwrap();
+    case["output"]["checkpoint_interval_s"] = json!(0.02);
+    case["reference"] = json!(Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/fudo/reference"));
+    case
+}
+
+/// Pseudo-random numbers in [0, 1).
+struct Random(u64);
+
+impl Random {
+    fn share(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+fn breakwater(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_breakwater"));
+    command.args(arguments).args(["--quiet", "--device", "cpu"]).stdout(Stdio::null()).stderr(Stdio::piped());
+    command
+}
+
+/// Begins a run of the case file in the folder `out`, or resumes it if the folder has a checkpoint.
+fn start_or_resume(case: &Path, out: &Path) -> Command {
+    let [case, dir] = [case, out].map(|path| path.to_str().unwrap());
+    if out.join("checkpoint.h5").exists() {
+        breakwater(&["resume", dir])
+    } else {
+        breakwater(&["run", case, "--out", dir, "--overwrite"])
+    }
+}
+
+fn message(ended: &Output) -> String {
+    String::from_utf8_lossy(&ended.stderr).into_owned()
+}
+
+/// Returns the contents of all files in a run folder, below their paths. `summary.json` is without the keys that tell
+/// how fast the run was.
+fn results(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    let mut folders = vec![out.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let mut content = fs::read(&path).unwrap();
+            if path.ends_with("summary.json") {
+                let mut summary: Value = serde_json::from_slice(&content).unwrap();
+                for key in ["execution", "wall_s", "steps_per_s"] {
+                    summary.as_object_mut().unwrap().remove(key);
+                }
+                content = summary.to_string().into_bytes();
+            }
+            files.insert(path.strip_prefix(out).unwrap().to_owned(), content);
+        }
+    }
+    files
+}
+
+/// Asserts that two run folders have the same files with the same contents, except for checkpoints and reports, which
+/// contain wall times.
+fn assert_same_results(one: &Path, other: &Path) {
+    let [one, other] = [one, other].map(|out| {
+        let mut files = results(out);
+        files.retain(|path, _| {
+            let name = path.file_name().unwrap().to_str().unwrap();
+            !name.starts_with("checkpoint.") && name != "report.html"
+        });
+        files
+    });
+    assert!(one.keys().eq(other.keys()), "{:?}\n{:?}", one.keys(), other.keys());
+    for (path, content) in &one {
+        assert!(*content == other[path], "{} differs", path.display());
+    }
+}
+
+/// Kills runs of a case at random moments, resumes them after each kill, and compares each finished run with an unbroken
+/// one. Ends when at least `kills` processes were killed.
+fn kill_and_resume(case: &Value, kills: usize) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.json");
+    fs::write(&path, case.to_string()).unwrap();
+    let (unbroken, killed) = (folder.path().join("unbroken"), folder.path().join("killed"));
+    let begin = Instant::now();
+    let ended = start_or_resume(&path, &unbroken).output().unwrap();
+    assert!(ended.status.success(), "{}", message(&ended));
+    let wall_s = begin.elapsed().as_secs_f64();
+    let (mut random, mut done, mut runs, mut before_first) = (Random(1), 0, 0, 0);
+    while done < kills {
+        let _ = fs::remove_dir_all(&killed);
+        loop {
+            let mut child = start_or_resume(&path, &killed).spawn().unwrap();
+            // Several kills in each run, on average at a quarter of the duration of the unbroken run.
+            let wait = Duration::from_secs_f64(0.5 * wall_s * random.share());
+            let begin = Instant::now();
+            while begin.elapsed() < wait && child.try_wait().unwrap().is_none() {
+                sleep(Duration::from_millis(1));
+            }
+            if child.try_wait().unwrap().is_none() {
+                child.kill().unwrap();
+                done += 1;
+                before_first += usize::from(!killed.join("checkpoint.h5").exists());
+            }
+            let ended = child.wait_with_output().unwrap();
+            if ended.status.success() {
+                break;
+            }
+            // Without a code, the process ended by the signal.
+            assert_eq!(ended.status.code(), None, "{}", message(&ended));
+        }
+        runs += 1;
+        assert_same_results(&unbroken, &killed);
+    }
+    println!(
+        "{done} kills in {runs} runs, {before_first} of them before the first checkpoint; unbroken run {wall_s:.1} s"
+    );
+}
+
+#[test]
+fn killed_runs_end_with_the_results_of_an_unbroken_run() {
+    kill_and_resume(&tank(), 5);
+}
+
+#[test]
+#[ignore = "10 min: cargo test --release --test interruptions -- --ignored --nocapture hundred"]
+fn a_hundred_kills_do_not_change_the_results() {
+    kill_and_resume(&tutorial(), 100);
+}
+
+/// A file system in memory of limited size, for the results of one run.
+struct SmallDisk(PathBuf);
+
+impl SmallDisk {
+    fn mount(path: PathBuf, bytes: u64) -> Self {
+        fs::create_dir(&path).unwrap();
+        let size = format!("size={bytes}");
+        assert!(
+            Command::new("mount").args(["-t", "tmpfs", "-o", &size, "tmpfs"]).arg(&path).status().unwrap().success()
+        );
+        Self(path)
+    }
+
+    fn enlarge(&self) {
+        let status = Command::new("mount").args(["-o", "remount,size=4g"]).arg(&self.0).status().unwrap();
+        assert!(status.success());
+    }
+}
+
+impl Drop for SmallDisk {
+    fn drop(&mut self) {
+        let _ = Command::new("umount").arg("--lazy").arg(&self.0).status();
+    }
+}
+
+#[test]
+#[ignore = "5 min, as root: cargo test --release --test interruptions -- --ignored --nocapture full_disk"]
+fn a_full_disk_gives_a_clear_message_and_keeps_the_last_checkpoint() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.json");
+    fs::write(&path, tutorial().to_string()).unwrap();
+    let unbroken = folder.path().join("unbroken");
+    assert!(start_or_resume(&path, &unbroken).status().unwrap().success());
+    let bytes: usize = results(&unbroken).values().map(Vec::len).sum();
+    let mut random = Random(2);
+    for number in 0..10 {
+        let size = (random.share() * bytes as f64) as u64;
+        let disk = SmallDisk::mount(folder.path().join(format!("disk{number}")), size.max(8192));
+        let out = disk.0.join("out");
+        let ended = start_or_resume(&path, &out).output().unwrap();
+        let message = message(&ended);
+        let checkpoint = out.join("checkpoint.h5").exists();
+        println!("disk of {:.2} MB, checkpoint: {checkpoint}: {}", size as f64 * 1e-6, message.trim());
+        assert_eq!(ended.status.code(), Some(1), "{message}");
+        assert!(message.contains("No space left on device") && !message.contains("panicked"), "{message}");
+        disk.enlarge();
+        let ended = start_or_resume(&path, &out).output().unwrap();
+        assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
+        assert_same_results(&unbroken, &out);
+    }
+}
