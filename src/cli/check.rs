@@ -93,12 +93,17 @@ fn check_flume(case: &Case, path: &Path) -> Result<(), CommandError> {
     times.and(check_overlap(setup, units, path))
 }
 
+/// Largest number of values of a varied key that `check` prints.
+const MOST_VALUES: usize = 12;
+
 fn print_sweep(path: &Path, sweep: &Sweep) {
     println!("{}: {}", path.display(), sweep.title);
     println!("  runs        {} of {}", sweep.members.len(), sweep.case.display());
     for one in &sweep.varied {
-        let values: Vec<String> = one.values.iter().map(in_words).collect();
-        println!("  varies      {}: {}", one.key, values.join(", "));
+        let shown: Vec<String> = one.values.iter().take(MOST_VALUES).map(in_words).collect();
+        let rest = one.values.len() - shown.len();
+        let rest = if rest == 0 { String::new() } else { format!(" and {rest} more") };
+        println!("  varies      {}: {}{rest}", one.key, shown.join(", "));
     }
 }
 

@@ -21,7 +21,8 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
         file.sync_all()?;
         fs::rename(&temporary, path)
     };
-    write().map_err(OutputError::io(path))
+    // On a full disk, an incomplete file would take the space of other files.
+    write().map_err(OutputError::io(path)).inspect_err(|_| drop(fs::remove_file(&temporary)))
 }
 
 #[cfg(test)]

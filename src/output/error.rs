@@ -1,5 +1,6 @@
 //! Errors of writing or reading the files of a run.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::sph::solver::backend::DeviceError;
@@ -19,7 +20,7 @@ pub enum OutputError {
         source: std::io::Error,
     },
     /// An HDF5 operation failed.
-    #[error("{}: HDF5: {source}", path.display())]
+    #[error("{}: HDF5: {}", path.display(), reason(source))]
     Hdf5 {
         /// Path of the file.
         path: PathBuf,
@@ -53,6 +54,18 @@ pub enum OutputError {
 }
 
 impl OutputError {
+    /// Returns true if the file cannot be written because the disk or the quota of the user is full.
+    pub fn is_full_disk(&self) -> bool {
+        match self {
+            Self::Io { source, .. } => matches!(source.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded),
+            Self::Hdf5 { source, .. } => {
+                let reason = reason(source);
+                ["No space left on device", "Disk quota exceeded"].iter().any(|words| reason.contains(words))
+            }
+            _ => false,
+        }
+    }
+
     /// Wraps an input or output error of the file at `path`, for use with `map_err`.
     pub(crate) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self + '_ {
         move |source| Self::Io { path: path.to_owned(), source }
@@ -71,5 +84,29 @@ impl OutputError {
     /// Creates an error for invalid content of the file at `path`.
     pub(crate) fn content(path: &Path, what: impl Into<String>) -> Self {
         Self::Content { path: path.to_owned(), what: what.into() }
+    }
+}
+
+/// Returns the message of the operating system in an HDF5 error if there is one, or else the whole error in one line.
+fn reason(error: &hdf5_metno::Error) -> String {
+    let text = error.to_string();
+    let message = text.split_once("error message = '").and_then(|(_, rest)| rest.split_once('\''));
+    message.map_or_else(|| text.replace('\n', " "), |(message, _)| message.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_disk_is_recognised_and_its_message_is_short() {
+        let text = "H5Dwrite(): can't write data: file write failed: time = Wed Nov 25 23:17:19\n, filename = 'a.h5', \
+                    errno = 28, error message = 'No space left on device', buf = 0x7f20, offset = 0";
+        let full = OutputError::hdf5(Path::new("a.h5"))(text.into());
+        assert_eq!(full.to_string(), "a.h5: HDF5: No space left on device");
+        let damaged = OutputError::hdf5(Path::new("a.h5"))("H5Fopen(): bad\nsignature".into());
+        assert_eq!(damaged.to_string(), "a.h5: HDF5: H5Fopen(): bad signature");
+        let table = OutputError::io(Path::new("a.csv"))(ErrorKind::StorageFull.into());
+        assert_eq!([full, damaged, table].map(|error| error.is_full_disk()), [true, false, true]);
     }
 }

@@ -35,12 +35,13 @@ pub(crate) fn write_state(
         fill(&file)?;
         file.close()
     };
-    write().map_err(OutputError::hdf5(&temporary))?;
     let publish = || {
         append_checksum(&temporary)?;
         std::fs::rename(&temporary, path)
     };
-    publish().map_err(OutputError::io(path))
+    let written = write().map_err(OutputError::hdf5(path)).and_then(|()| publish().map_err(OutputError::io(path)));
+    // On a full disk, an incomplete file would take the space of other files.
+    written.inspect_err(|_| drop(std::fs::remove_file(&temporary)))
 }
 
 /// Like [`read_state`], but refuses a file that differs from the file that [`write_state`] has written. The HDF5 library

@@ -1,5 +1,6 @@
 //! Reads a sweep file and creates the cases of its runs.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value, json};
@@ -205,7 +206,11 @@ impl VaryFile {
                 ));
             }
         };
-        Ok(Varied { key: self.key.clone(), values })
+        let mut seen = HashSet::new();
+        match values.iter().find(|value| !seen.insert(value.to_string())) {
+            Some(value) => Err(format!("{path}: {} is listed twice; write each value once", in_words(value))),
+            None => Ok(Varied { key: self.key.clone(), values }),
+        }
     }
 }
 
@@ -302,8 +307,19 @@ mod tests {
         let vary = VaryFile { key: "a.b".to_owned(), values: None, from: Some(0.1), to: Some(0.98), count: Some(9) };
         let values: Vec<f64> = vary.values(0).unwrap().values.iter().map(|v| v.as_f64().unwrap()).collect();
         assert_eq!(values, [0.1, 0.21, 0.32, 0.43, 0.54, 0.65, 0.76, 0.87, 0.98]);
-        let both = VaryFile { values: Some(vec![json!(1)]), ..vary };
+        let both = VaryFile { values: Some(vec![json!(1)]), ..vary.clone() };
         assert!(both.values(3).unwrap_err().contains("vary[3] (a.b)"));
+        let list = |values: Value| VaryFile {
+            values: values.as_array().cloned(),
+            from: None,
+            to: None,
+            count: None,
+            ..vary.clone()
+        };
+        assert!(list(json!([0.3, 0.4, "x", [1, 2]])).values(0).is_ok());
+        for twice in [json!([0.3, 0.4, 0.3]), json!(["a", "a"]), json!([null, 1, null])] {
+            assert!(list(twice).values(0).unwrap_err().ends_with(" is listed twice; write each value once"));
+        }
     }
 
     #[test]

@@ -52,7 +52,7 @@ fn introduce(case: &DryTestCase, dir: &Path, quiet: bool) {
 
 /// Prints the results of a dry test and returns its summary.
 fn finish(ended: Result<DryTestSummary, RunError>, dir: &Path) -> Result<DryTestSummary, CommandError> {
-    let summary = ended.map_err(command_error)?;
+    let summary = ended.map_err(|error| command_error(error, dir))?;
     println!(
         "{:.2} s simulated in {} substeps and {} ({})",
         summary.simulated_s,

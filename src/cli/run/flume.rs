@@ -2,7 +2,7 @@
 
 use std::{path::Path, sync::Arc};
 
-use super::{CommandError, breakage, command_error};
+use super::{CommandError, breakage, command_error, report_error};
 use crate::{
     case::{Case, Reference},
     output::{Summary, driver::RunError, progress::readable},
@@ -60,8 +60,8 @@ fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
 
 /// Writes the report of a run, prints the results and returns the summary.
 pub(in crate::cli) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, CommandError> {
-    let summary = ended.map_err(command_error)?;
-    let report = write_report(dir).map_err(CommandError::failed)?;
+    let summary = ended.map_err(|error| command_error(error, dir))?;
+    let report = write_report(dir).map_err(|error| report_error(error, dir))?;
     println!(
         "{:.2} s simulated in {} steps and {} ({})",
         summary.simulated_s,

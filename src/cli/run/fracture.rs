@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, command_error, require_checkpoint};
+use super::{CommandError, command_error, report_error, require_checkpoint};
 use crate::{
     case::{FractureCase, InputKind},
     cli::{
@@ -80,8 +80,8 @@ fn introduce(case: &FractureCase, dir: &Path, control: &Control) {
 
 /// Writes the report of a run and prints the results.
 fn finish(ended: Result<FractureSummary, RunError>, dir: &Path) -> Result<(), CommandError> {
-    let summary = ended.map_err(command_error)?;
-    let report = write_fracture_report(dir).map_err(CommandError::failed)?;
+    let summary = ended.map_err(|error| command_error(error, dir))?;
+    let report = write_fracture_report(dir).map_err(|error| report_error(error, dir))?;
     tell(&summary, dir);
     println!("report: {}", report.display());
     Ok(())

@@ -22,7 +22,7 @@ use super::{
 };
 use crate::{
     case::{Document, InputFile, InputKind},
-    output::{Summary, driver::RunError, write_atomically},
+    output::{OutputError, Summary, driver::RunError, write_atomically},
     simulation::{
         dry_test::recorder::DryTestRecorder,
         flume::{
@@ -168,10 +168,34 @@ fn is_same_folder(one: &Path, other: &Path) -> bool {
     one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
-/// Converts a set-up error to refused input (exit code 2) and every other error to a failure (exit code 1).
-fn command_error(error: RunError) -> CommandError {
+/// Converts a set-up error to refused input (exit code 2) and every other error to a failure (exit code 1). `dir` is the
+/// run folder.
+fn command_error(error: RunError, dir: &Path) -> CommandError {
     match error {
         RunError::Setup(_) => CommandError::refused(error),
+        RunError::Output(error) => {
+            let mut checkpoints = [Checkpoint::FILE, DryTestRecorder::CHECKPOINT].into_iter();
+            let (state, command) = if checkpoints.any(|file| dir.join(file).exists()) {
+                ("the last checkpoint is complete", "breakwater resume")
+            } else {
+                ("there is no checkpoint yet", "start again with --overwrite and --out")
+            };
+            output_error(error, state, &format!("{command} {}", dir.display()))
+        }
         _ => CommandError::failed(error),
+    }
+}
+
+/// Converts an error of the report of the run in the folder `dir` to a failure.
+fn report_error(error: OutputError, dir: &Path) -> CommandError {
+    output_error(error, "the run is complete", &format!("breakwater report {}", dir.display()))
+}
+
+/// Converts an error to a failure. For a full disk, the message has the state of the run and the command to go on.
+fn output_error(error: OutputError, state: &str, command: &str) -> CommandError {
+    if error.is_full_disk() {
+        CommandError::failed(format!("{error}; {state}; free some space, then: {command}"))
+    } else {
+        CommandError::failed(error)
     }
 }
