@@ -175,12 +175,13 @@ fn command_error(error: RunError, dir: &Path) -> CommandError {
         RunError::Setup(_) => CommandError::refused(error),
         RunError::Output(error) => {
             let mut checkpoints = [Checkpoint::FILE, DryTestRecorder::CHECKPOINT].into_iter();
-            let (state, command) = if checkpoints.any(|file| dir.join(file).exists()) {
-                ("the last checkpoint is complete", "breakwater resume")
+            let dir_name = dir.display();
+            let next = if checkpoints.any(|file| dir.join(file).exists()) {
+                format!("the last checkpoint is complete; free some space, then: breakwater resume {dir_name}")
             } else {
-                ("there is no checkpoint yet", "start again with --overwrite and --out")
+                "there is no checkpoint yet; free some space, then start again with --overwrite".to_owned()
             };
-            output_error(error, state, &format!("{command} {}", dir.display()))
+            output_error(error, &next)
         }
         _ => CommandError::failed(error),
     }
@@ -188,14 +189,11 @@ fn command_error(error: RunError, dir: &Path) -> CommandError {
 
 /// Converts an error of the report of the run in the folder `dir` to a failure.
 fn report_error(error: OutputError, dir: &Path) -> CommandError {
-    output_error(error, "the run is complete", &format!("breakwater report {}", dir.display()))
+    let dir_name = dir.display();
+    output_error(error, &format!("the run is complete; free some space, then: breakwater report {dir_name}"))
 }
 
-/// Converts an error to a failure. For a full disk, the message has the state of the run and the command to go on.
-fn output_error(error: OutputError, state: &str, command: &str) -> CommandError {
-    if error.is_full_disk() {
-        CommandError::failed(format!("{error}; {state}; free some space, then: {command}"))
-    } else {
-        CommandError::failed(error)
-    }
+/// Converts an error to a failure. For a full disk, the message ends with `next`: the state of the run, and what to do.
+fn output_error(error: OutputError, next: &str) -> CommandError {
+    if error.is_full_disk() { CommandError::failed(format!("{error}; {next}")) } else { CommandError::failed(error) }
 }

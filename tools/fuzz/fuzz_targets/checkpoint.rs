@@ -37,7 +37,7 @@ fuzz_target!(|input: &[u8]| {
     }
     let Ok(case) = InputFile::load(dir.join("case.json")) else { return };
     // A report takes much longer than the rest.
-    let reports = random.below(50) == 0;
+    let reports = random.below(500) == 0;
     // The result does not matter: the run may fail, but must neither panic nor run forever.
     let control = Control::quiet();
     match case {
