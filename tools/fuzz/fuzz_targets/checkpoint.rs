@@ -32,8 +32,8 @@ fuzz_target!(|input: &[u8]| {
     for (name, content) in run {
         FOLDER.write(&format!("run/{name}"), content);
     }
-    for _ in 0..1 + random.below(2) {
-        DAMAGE.apply(&dir, &mut random);
+    for number in 0..1 + random.below(2) {
+        DAMAGE.apply(&dir, number == 0, &mut random);
     }
     let Ok(case) = InputFile::load(dir.join("case.json")) else { return };
     // A report takes much longer than the rest.

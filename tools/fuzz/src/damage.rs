@@ -24,16 +24,18 @@ impl Damage {
         Self { json: Mutator::new(files.map(|(_, content)| content)) }
     }
 
-    /// Damages one file of the run folder, in most cases the checkpoint.
-    pub fn apply(&self, dir: &Path, random: &mut Random) {
+    /// Damages one file of the run folder, in most cases the checkpoint. `is_intact` is true if no file of the folder is
+    /// damaged yet.
+    pub fn apply(&self, dir: &Path, is_intact: bool, random: &mut Random) {
         let mut names: Vec<String> =
             fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         let checkpoint = names.iter().find(|name| name.starts_with("checkpoint.")).cloned();
         let name = checkpoint.filter(|_| random.below(4) > 0).unwrap_or_else(|| random.pick(&names).clone());
         let path = dir.join(&name);
-        // HDF5 may be unable to open a file that is damaged already.
-        if name.starts_with("checkpoint.h5") && random.below(8) > 0 && self.damage_state(&path, random).is_ok() {
+        // The HDF5 library fails, hangs or allocates too much memory if the file is damaged already.
+        let is_state = is_intact && name.starts_with("checkpoint.h5");
+        if is_state && random.below(8) > 0 && self.damage_state(&path, random).is_ok() {
             return;
         }
         let content = fs::read(&path).unwrap();
@@ -77,9 +79,6 @@ impl Damage {
     }
 }
 
-/// Largest number of values of a dataset that is damaged; the datasets of the checkpoints are much smaller.
-const MOST_VALUES: usize = 1 << 20;
-
 /// Replaces values of a dataset by extreme values, or replaces the dataset by one with another shape.
 fn damage_values<T: H5Type + Copy>(
     group: &Group,
@@ -87,10 +86,6 @@ fn damage_values<T: H5Type + Copy>(
     extremes: &[T],
     random: &mut Random,
 ) -> hdf5_metno::Result<()> {
-    // An earlier damage can have changed the size in the header of the dataset.
-    if dataset.size() > MOST_VALUES {
-        return Ok(());
-    }
     let mut values: Vec<T> = dataset.read_raw()?;
     let shape = dataset.shape();
     let name = dataset.name();

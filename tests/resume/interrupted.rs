@@ -14,27 +14,11 @@ use std::{
 
 use serde_json::{Value, json};
 
-/// A tank whose water falls onto a block: many checkpoints in a short run.
-fn tank() -> Value {
-    json!({
-        "title": "tank",
-        "flume": { "bed_m": [[0.0, 0.0], [1.0, 0.0]], "still_water_level_m": 0.3, "material": "stone" },
-        "domain": { "x_m": [0.0, 1.0], "sides": "two_dimensional", "top_z_m": 0.5, "dp_m": 0.025,
-                    "water": { "kind": "block", "x_m": [0.0, 0.5], "top_z_m": 0.3 } },
-        "numerics": { "hold_units_s": 0.02 },
-        "units": { "shape": "cuboid", "size_m": [0.1, 0.1, 0.1], "mass_kg": 2.3, "material": "stone",
-                   "centres_m": [[0.8, 0.0, 0.05]] },
-        "materials": [{ "name": "stone", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
-        "friction": [{ "between": ["stone", "stone"], "coefficient": 0.5 }],
-        "output": { "fluid_interval_s": 0.05, "units_interval_s": 0.02, "series_interval_s": 0.005,
-                    "checkpoint_interval_s": 0.02 },
-        "stop": { "duration_s": 0.6 }
-    })
-}
+use super::tank;
 
 /// The case of the tutorial, two Tetrapods under a solitary wave, with a checkpoint every 0.02 s.
 fn tutorial() -> Value {
-    let mut case: Value = serde_json::from_str(include_str!("../cases/tutorial/units.json")).unwrap();
+    let mut case: Value = serde_json::from_str(include_str!("../../cases/tutorial/units.json")).unwrap();
     case["output"]["checkpoint_interval_s"] = json!(0.02);
     case["reference"] = json!(Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/fudo/reference"));
     case
@@ -156,11 +140,15 @@ fn kill_and_resume(case: &Value, kills: usize) {
 
 #[test]
 fn killed_runs_end_with_the_results_of_an_unbroken_run() {
-    kill_and_resume(&tank(), 5);
+    let mut case = tank();
+    case["output"]["fluid_interval_s"] = json!(0.05);
+    case["output"]["checkpoint_interval_s"] = json!(0.02);
+    case["stop"]["duration_s"] = json!(0.6);
+    kill_and_resume(&case, 5);
 }
 
 #[test]
-#[ignore = "10 min: cargo test --release --test interruptions -- --ignored --nocapture hundred"]
+#[ignore = "10 min: cargo test --release --test resume -- --ignored --nocapture hundred"]
 fn a_hundred_kills_do_not_change_the_results() {
     kill_and_resume(&tutorial(), 100);
 }
@@ -191,7 +179,7 @@ impl Drop for SmallDisk {
 }
 
 #[test]
-#[ignore = "5 min, as root: cargo test --release --test interruptions -- --ignored --nocapture full_disk"]
+#[ignore = "5 min, as root: cargo test --release --test resume -- --ignored --nocapture full_disk"]
 fn a_full_disk_gives_a_clear_message_and_keeps_the_last_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("case.json");
