@@ -24,7 +24,7 @@ fn tutorial() -> Value {
     case
 }
 
-/// Pseudo-random numbers in [0, 1).
+/// Pseudo-random numbers in [0, 1), from the linear congruential generator of Knuth's MMIX computer.
 struct Random(u64);
 
 impl Random {
@@ -148,7 +148,7 @@ fn killed_runs_end_with_the_results_of_an_unbroken_run() {
 }
 
 #[test]
-#[ignore = "10 min: cargo test --release --test resume -- --ignored --nocapture hundred"]
+#[ignore = "10 to 17 min: cargo test --release --test resume -- --ignored --nocapture hundred"]
 fn a_hundred_kills_do_not_change_the_results() {
     kill_and_resume(&tutorial(), 100);
 }
@@ -179,7 +179,7 @@ impl Drop for SmallDisk {
 }
 
 #[test]
-#[ignore = "5 min, as root: cargo test --release --test resume -- --ignored --nocapture full_disk"]
+#[ignore = "7 min, as root: cargo test --release --test resume -- --ignored --nocapture full_disk"]
 fn a_full_disk_gives_a_clear_message_and_keeps_the_last_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("case.json");

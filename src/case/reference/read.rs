@@ -18,8 +18,8 @@ const MAX_UNITS: u32 = 10_000;
 /// Largest damage distance [m]: more than the height of the largest armour units.
 const LONGEST_DAMAGE_DISTANCE_M: f64 = 20.0;
 
-/// Largest ratio of a wave height or displacement to the damage distance, and smallest ratio of a wave height divided
-/// into 1 [-]. Lengths in different units, for example metres and millimetres, exceed it.
+/// Largest ratio of a displacement or wave height to the damage distance, and of the damage distance to a wave height
+/// [-]. The ratio is larger if the lengths have different units, for example metres and millimetres.
 const LARGEST_RATIO: f64 = 100.0;
 
 impl Reference {
