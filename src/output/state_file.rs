@@ -44,33 +44,18 @@ pub(crate) fn write_state(
     written.inspect_err(|_| drop(std::fs::remove_file(&temporary)))
 }
 
-/// Like [`read_state`], but refuses a file that differs from the file that [`write_state`] has written. The HDF5 library
-/// would read many damaged files without an error, and some damages make the library crash.
+/// Opens a file of [`write_state`]; returns its text and the result of `read`. Refuses a file that has changed since it
+/// was written: the HDF5 library would read many damaged files without an error, and crash on some.
 ///
 /// # Errors
 /// If the file is missing or invalid, or its checksum is wrong.
-pub(crate) fn read_unchanged_state<T>(
+pub(crate) fn read_state<T>(
     path: &Path,
     read: impl FnOnce(&File) -> Hdf5Result<T>,
 ) -> Result<(String, T), OutputError> {
     if !has_valid_checksum(path).map_err(OutputError::io(path))? {
         return Err(OutputError::content(path, DAMAGED));
     }
-    read_state(path, read)
-}
-
-/// Message for a file whose checksum is wrong or missing.
-pub(crate) const DAMAGED: &str =
-    "is damaged or incomplete, or was written by another version of breakwater (wrong checksum); rerun the case";
-
-/// Opens a file of [`write_state`]; returns its text and the result of `read`.
-///
-/// # Errors
-/// If the file is missing or invalid.
-pub(crate) fn read_state<T>(
-    path: &Path,
-    read: impl FnOnce(&File) -> Hdf5Result<T>,
-) -> Result<(String, T), OutputError> {
     let open = || -> Hdf5Result<(String, T)> {
         let file = File::open(path)?;
         let text = file.attr(TEXT)?.read_scalar::<VarLenUnicode>()?;
@@ -78,6 +63,10 @@ pub(crate) fn read_state<T>(
     };
     open().map_err(OutputError::hdf5(path))
 }
+
+/// Message for a file whose checksum is wrong or missing.
+pub(crate) const DAMAGED: &str =
+    "is damaged or incomplete, or was written by another version of breakwater (wrong checksum); rerun the case";
 
 /// Writes a dataset of one column.
 pub(crate) fn write_column<T: H5Type>(group: &Group, name: &str, values: &[T]) -> Hdf5Result<()> {

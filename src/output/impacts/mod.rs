@@ -126,7 +126,6 @@ impl Impacts {
     /// # Errors
     /// If the file is missing or damaged, or is not an impact file.
     pub fn read(path: &Path) -> Result<Self, OutputError> {
-        std::fs::metadata(path).map_err(OutputError::io(path))?;
         let (text, columns) = read_state(path, Columns::read)?;
         let header: Header = serde_json::from_str(&text).map_err(OutputError::json(path))?;
         if header.version != VERSION {
@@ -230,6 +229,7 @@ fn write_bodies(group: &Group, prefix: &str, bodies: impl Iterator<Item = BodySt
 mod tests {
     use hdf5_metno::File;
 
+    use super::super::checksum::append_checksum;
     use super::columns::NO_EVENT;
     use super::*;
 
@@ -293,19 +293,20 @@ mod tests {
         some_impacts().write(&path).unwrap();
         let whole = std::fs::read(&path).unwrap();
         std::fs::write(&path, &whole[..whole.len() / 2]).unwrap();
-        refusal();
-        for name in ["impacts/unit", "impacts/partner_kind", "impacts/peak_force_n", "impacts/rotation_xyzw"] {
+        assert!(refusal().contains("is damaged or incomplete"));
+        let change = |damage: &dyn Fn(&File)| {
             some_impacts().write(&path).unwrap();
             let file = File::open_rw(&path).unwrap();
-            file.unlink(name).unwrap();
+            damage(&file);
             drop(file);
+            append_checksum(&path).unwrap();
+        };
+        for name in ["impacts/unit", "impacts/partner_kind", "impacts/peak_force_n", "impacts/rotation_xyzw"] {
+            change(&|file| file.unlink(name).unwrap());
             assert!(refusal().contains("HDF5"));
         }
         for offsets in [[0_u64, 1, 3, 99, 6], [0, 3, 1, 3, 6]] {
-            some_impacts().write(&path).unwrap();
-            let file = File::open_rw(&path).unwrap();
-            file.dataset("history/offset").unwrap().write_raw(&offsets).unwrap();
-            drop(file);
+            change(&|file| file.dataset("history/offset").unwrap().write_raw(&offsets).unwrap());
             assert!(refusal().contains("offset"));
         }
     }

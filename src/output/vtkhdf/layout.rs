@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hdf5_metno::plist::file_access::FileAccessBuilder;
 use hdf5_metno::types::FixedAscii;
 use hdf5_metno::{Dataset, File, Group, H5Type};
 
@@ -22,6 +23,24 @@ pub(super) fn unlocked() -> hdf5_metno::FileBuilder {
     let mut builder = File::with_options();
     builder.with_fapl(|access| access.file_locking(false));
     builder
+}
+
+/// Creates a file, or empties an existing one. The indices of its chunks have checksums: the library refuses damaged
+/// indices, while it crashes on some damaged indices of its oldest format, which has no checksums.
+///
+/// # Errors
+/// If the file cannot be written.
+pub(super) fn create_unlocked(path: &Path) -> Hdf5Result<File> {
+    let from_version = |choose: fn(&mut FileAccessBuilder) -> &mut FileAccessBuilder| {
+        let mut builder = unlocked();
+        builder.with_fapl(choose);
+        builder
+    };
+    // Files that version 1.10 creates have a mark while a program writes to them. ParaView could not open the file of a
+    // run in progress, and no program the file of a killed run. So version 1.8 creates the file, and version 1.10 its
+    // datasets.
+    drop(from_version(FileAccessBuilder::libver_v18).with_fcpl(|file| file.obj_track_times(false)).create(path)?);
+    from_version(FileAccessBuilder::libver_v110).open_rw(path)
 }
 
 /// Opens a file with at least `steps` steps and the given fields in the group `VTKHDF/{group}`.
@@ -50,14 +69,19 @@ pub(super) fn open_with_steps(
     Ok(file)
 }
 
+/// Creates a group without the wall time of its creation, so that equal runs have equal files.
+pub(super) fn new_group(parent: &Group, name: &str) -> Hdf5Result<Group> {
+    parent.create_group_builder().with_create_plist(|group| group.obj_track_times(false)).create(name)
+}
+
 /// Creates the groups `VTKHDF` and `Steps`, and the attributes for version and type. `LETTERS` is the length of
 /// `type_name`, because VTK requires a string of exactly this length.
 pub(super) fn new_root<const LETTERS: usize>(file: &File, type_name: &str) -> Hdf5Result<[Group; 2]> {
-    let root = file.create_group("VTKHDF")?;
+    let root = new_group(file, "VTKHDF")?;
     root.new_attr_builder().with_data(&[2_i64, 0]).create("Version")?;
     let kind = FixedAscii::<LETTERS>::from_ascii(type_name).map_err(|e| hdf5_metno::Error::from(e.to_string()))?;
     root.new_attr::<FixedAscii<LETTERS>>().create("Type")?.write_scalar(&kind)?;
-    let steps = root.create_group("Steps")?;
+    let steps = new_group(&root, "Steps")?;
     Ok([root, steps])
 }
 
@@ -75,15 +99,15 @@ pub(super) fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5R
     new_list::<i64>(&root, "NumberOfPoints", STEP_CHUNK)?;
     new_rows::<3>(&root, "Points")?;
     for name in TOPOLOGIES {
-        let group = root.create_group(name)?;
+        let group = new_group(&root, name)?;
         new_list::<i64>(&group, "NumberOfCells", STEP_CHUNK)?;
         new_list::<i64>(&group, "NumberOfConnectivityIds", STEP_CHUNK)?;
         // The VTK reader needs the first offset 0 even if there are no cells.
         append_rows(&new_list::<i64>(&group, "Offsets", LONG_CHUNK)?, &[0_i64])?;
         new_list::<i64>(&group, "Connectivity", LONG_CHUNK)?;
     }
-    let point_data = root.create_group("PointData")?;
-    let offsets = steps.create_group("PointDataOffsets")?;
+    let point_data = new_group(&root, "PointData")?;
+    let offsets = new_group(&steps, "PointDataOffsets")?;
     fields.iter().try_for_each(|(name, kind)| new_field(&point_data, &offsets, name, *kind))
 }
 

@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use hdf5_metno::{Dataset, File, Group};
 
 use self::layout::{
-    Hdf5Result, TOPOLOGIES, append_rows, append_rows_of, append_values, cut, damaged, entry, open_with_steps, set_row,
-    set_row_of_4, unlocked, write_skeleton,
+    Hdf5Result, TOPOLOGIES, append_rows, append_rows_of, append_values, create_unlocked, cut, damaged, entry,
+    open_with_steps, set_row, set_row_of_4, write_skeleton,
 };
 use super::OutputError;
 
@@ -118,7 +118,7 @@ impl PolyDataSeries {
     /// If the file cannot be written.
     pub fn create(path: &Path, cells: Cells, fields: &[(&str, FieldKind)]) -> Result<Self, OutputError> {
         let create = || -> Hdf5Result<File> {
-            let file = unlocked().create(path)?;
+            let file = create_unlocked(path)?;
             write_skeleton(&file, fields)?;
             file.flush()?;
             Ok(file)

@@ -136,11 +136,39 @@ fn a_damaged_file_is_refused_on_resume() {
             series.append(time, &[[0.0; 3]; 3], &[[0, 1, 2]], &[FieldValues::Integer(&[1; 3])]).unwrap();
         }
         drop(series);
-        let file = unlocked().open_rw(&path).unwrap();
+        let file = layout::unlocked().open_rw(&path).unwrap();
         damage(&file.dataset(&format!("VTKHDF/{name}")).unwrap());
         drop(file);
         let error = PolyDataSeries::reopen(&path, Cells::Triangles, &fields, 2).err().unwrap().to_string();
         assert!(error.contains("units.vtkhdf: HDF5: the dataset /VTKHDF/") && error.contains("is damaged"), "{error}");
+    }
+}
+
+#[test]
+fn a_damaged_index_of_chunks_is_refused_on_resume() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("units.vtkhdf");
+    let mut series = PolyDataSeries::create(&path, Cells::Triangles, &[]).unwrap();
+    for step in 0..3 {
+        series.append(f64::from(step), &[[step as f32; 3]; 30_000], &[[0, 1, 2]], &[]).unwrap();
+    }
+    drop(series);
+    let whole = std::fs::read(&path).unwrap();
+    // Signatures of the blocks of an index in the format of HDF5: header, index block, data block.
+    for (signature, least) in [(b"EAHD", 10), (b"EAIB", 10), (b"EADB", 1)] {
+        let blocks: Vec<usize> = (0..whole.len() - 4).filter(|at| whole[*at..*at + 4] == signature[..]).collect();
+        let mut refused = 0;
+        for block in &blocks {
+            for at in [block + 5, block + 12, block + 20] {
+                let mut damaged = whole.clone();
+                damaged[at] ^= 0x41;
+                std::fs::write(&path, &damaged).unwrap();
+                // Blocks that the resume does not read may be damaged.
+                let opened = PolyDataSeries::reopen(&path, Cells::Triangles, &[], 1);
+                refused += usize::from(opened.is_err_and(|error| error.to_string().contains("units.vtkhdf: HDF5: ")));
+            }
+        }
+        assert!(refused >= 3 * least, "{refused} of {} damages refused", 3 * blocks.len());
     }
 }
 

@@ -10,8 +10,8 @@ use hdf5_metno::{Dataset, File};
 
 use super::super::OutputError;
 use super::layout::{
-    Hdf5Result, LONG_CHUNK, STEP_CHUNK, append_rows, append_rows_of, append_values, cut, entry, new_field, new_list,
-    new_root, new_rows, open_with_steps, set_row, unlocked,
+    Hdf5Result, LONG_CHUNK, STEP_CHUNK, append_rows, append_rows_of, append_values, create_unlocked, cut, entry,
+    new_field, new_group, new_list, new_root, new_rows, open_with_steps, set_row,
 };
 use super::{FieldKind, FieldValues};
 
@@ -54,7 +54,7 @@ impl TetSeries {
     /// If the file cannot be written.
     pub fn create(path: &Path, fields: &[(&str, FieldKind)]) -> Result<Self, OutputError> {
         let create = || -> Hdf5Result<File> {
-            let file = unlocked().create(path)?;
+            let file = create_unlocked(path)?;
             write_skeleton(&file, fields)?;
             file.flush()?;
             Ok(file)
@@ -198,9 +198,9 @@ fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5Result<()> {
         new_list::<i64>(&root, name, LONG_CHUNK)?;
     }
     new_list::<u8>(&root, "Types", LONG_CHUNK)?;
-    let (point_data, point_offsets) = (root.create_group("PointData")?, steps.create_group("PointDataOffsets")?);
+    let (point_data, point_offsets) = (new_group(&root, "PointData")?, new_group(&steps, "PointDataOffsets")?);
     new_field(&point_data, &point_offsets, VELOCITY, FieldKind::Vector)?;
-    let (cell_data, cell_offsets) = (root.create_group("CellData")?, steps.create_group("CellDataOffsets")?);
+    let (cell_data, cell_offsets) = (new_group(&root, "CellData")?, new_group(&steps, "CellDataOffsets")?);
     fields.iter().try_for_each(|(name, kind)| new_field(&cell_data, &cell_offsets, name, *kind))
 }
 

@@ -21,8 +21,7 @@ use crate::{
     output::{
         OutputError,
         state_file::{
-            Hdf5Result, read_rows, read_unchanged_state, read_vectors, write_column, write_rows, write_state,
-            write_vectors,
+            Hdf5Result, read_rows, read_state, read_vectors, write_column, write_rows, write_state, write_vectors,
         },
     },
 };
@@ -61,7 +60,7 @@ pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) ->
 /// # Errors
 /// If the checkpoint is missing, damaged or of another case.
 pub fn read(case: &FractureCase, world: &mut World, path: &Path) -> Result<RunState, OutputError> {
-    let (text, mut state) = read_unchanged_state(path, read_arrays)?;
+    let (text, mut state) = read_state(path, read_arrays)?;
     let Header { version, case: written, run, world: scalars } =
         serde_json::from_str(&text).map_err(OutputError::json(path))?;
     if version != VERSION {

@@ -19,7 +19,7 @@ use crate::{
     case::{Case, CaseIdentity},
     output::{
         FluidAtPeak, OutputError,
-        state_file::{Hdf5Result, read_unchanged_state, read_vectors, write_column, write_state, write_vectors},
+        state_file::{Hdf5Result, read_state, read_vectors, write_column, write_state, write_vectors},
     },
     rigid::{Load, RigidSnapshot},
     sph::{device::Device, particles::water::Water},
@@ -112,7 +112,7 @@ impl Checkpoint {
 /// Returns the name of the device that computed the run in `dir`; `None` if the checkpoint cannot be read.
 pub fn device_of(dir: &Path) -> Option<String> {
     let path = dir.join(Checkpoint::FILE);
-    let (text, ()) = read_unchanged_state(&path, |_| Ok(())).ok()?;
+    let (text, ()) = read_state(&path, |_| Ok(())).ok()?;
     parse::<Scalars>(&text, &path).ok().map(|scalars| scalars.device)
 }
 
@@ -123,7 +123,7 @@ impl Checkpoint {
     /// If the checkpoint is missing, damaged or of another case.
     pub fn read(dir: &Path, identity: &CaseIdentity) -> Result<Self, OutputError> {
         let path = dir.join(Self::FILE);
-        let (text, (water, boundary_density, water_at_impacts)) = read_unchanged_state(&path, read_arrays)?;
+        let (text, (water, boundary_density, water_at_impacts)) = read_state(&path, read_arrays)?;
         let scalars: Scalars = parse(&text, &path)?;
         if scalars.version != VERSION {
             let what = format!(
