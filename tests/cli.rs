@@ -244,6 +244,12 @@ fn bench_writes_its_measurements() {
     let shares = measured["phases"].as_array().unwrap().iter().map(|phase| phase["share"].as_f64().unwrap());
     assert!((shares.sum::<f64>() - 1.0).abs() < 1e-9);
     refuse(&["bench", "--support", "20"]);
+    let case = folder.path().join("case.json");
+    succeed(&["init", path(&case)]);
+    succeed(&["bench", path(&case), "--seconds", "0.1", "--threads", "1", "--json", path(&file)]);
+    let measured = read_json(&file);
+    assert!(measured["water_alone_per_s"].as_f64().is_some_and(|rate| rate > 0.0), "{measured:#}");
+    refuse(&["bench", path(&case), "--particles", "1000"]);
 }
 
 #[test]

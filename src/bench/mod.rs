@@ -1,8 +1,9 @@
-//! Benchmark of the solver on this machine: whole time steps of a block of water in a tank, phase by phase.
+//! Benchmark of the solver on this machine: whole time steps of a block of water in a tank, phase by phase, and of a case.
 
 pub mod block;
 #[cfg(feature = "gpu")]
 pub mod card;
+pub mod coupled;
 pub mod machine;
 pub mod tank;
 

@@ -1,13 +1,16 @@
 //! `breakwater bench`: measures the speed of the solver on this machine.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 use serde_json::json;
 
-use super::CommandError;
+use super::{CommandError, input::load};
 use crate::{
-    bench::{Measurement, block::Block, machine::Machine, measure},
+    bench::{Measurement, block::Block, coupled, machine::Machine, measure},
+    case::{Case, InputFile, InputKind},
     output::write_atomically,
     sph::{
         device::{Device, DeviceChoice},
@@ -16,7 +19,7 @@ use crate::{
 };
 
 /// Measure the speed of the solver: evaluations and particle pairs per second for a block of water, with 1 to N
-/// threads.
+/// threads. With CASE, measure time steps of this case, with its units and walls, and of its water alone.
 ///
 /// A "full evaluation" computes continuity, density diffusion, pressure and viscosity of one particle. A time step has
 /// two full evaluations per particle, and also sorting, neighbour lists and the boundary. The rate of full evaluations
@@ -24,6 +27,9 @@ use crate::{
 /// the rate for water particles only.
 #[derive(Args)]
 pub struct BenchArguments {
+    /// Case whose time steps are measured instead of the block of water.
+    #[arg(value_name = "CASE", conflicts_with_all = ["particles", "support", "instructions", "device"])]
+    case: Option<PathBuf>,
     /// Number of water particles.
     #[arg(long, default_value_t = 170_000, value_parser = clap::value_parser!(u32).range(512..=50_000_000))]
     particles: u32,
@@ -81,6 +87,9 @@ impl BenchArguments {
         }
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = self.threads.map_or(cores, |threads| threads as usize);
+        if let Some(case) = &self.case {
+            return self.measure_case(case, threads);
+        }
         let instructions = self.instructions.map_or_else(InstructionSet::best, Instructions::set);
         if !InstructionSet::available().contains(&instructions) {
             return Err(CommandError::refused(format!(
@@ -106,6 +115,32 @@ impl BenchArguments {
             }
         }
         write_json(self.json.as_deref(), &measurements, ("instructions", format!("{instructions:?}")))
+    }
+
+    fn measure_case(&self, path: &Path, threads: usize) -> Result<(), CommandError> {
+        let InputFile::Flume(case) = load(path, &[InputKind::Flume])? else {
+            unreachable!("only flume cases are loaded")
+        };
+        let case: Arc<Case> = Arc::from(case);
+        let mut measurements = Vec::new();
+        for count in 1..=threads {
+            let measured = coupled::measure(case.clone(), count, self.seconds).map_err(CommandError::failed)?;
+            println!(
+                "{count} threads: {:.0} thousand particles ({:.0} thousand of water), {} units, {} time steps",
+                measured.particles as f64 / 1e3,
+                measured.water_particles as f64 / 1e3,
+                measured.units,
+                measured.steps
+            );
+            println!(
+                "  {:.2} million full evaluations/s, {:.0} % of the water alone ({:.2} million/s)",
+                measured.full_evaluations_per_s / 1e6,
+                100.0 * measured.full_evaluations_per_s / measured.water_alone_per_s,
+                measured.water_alone_per_s / 1e6
+            );
+            measurements.push(measured);
+        }
+        write_json(self.json.as_deref(), &measurements, ("case", path.display().to_string()))
     }
 
     #[cfg(feature = "gpu")]
@@ -134,9 +169,9 @@ impl BenchArguments {
 
 /// Writes the list of measurements. The top-level keys have the values of the last measurement: moving water with all
 /// threads, as in a run.
-fn write_json(
+fn write_json<M: Serialize>(
     path: Option<&Path>,
-    measurements: &[Measurement],
+    measurements: &[M],
     (key, value): (&str, String),
 ) -> Result<(), CommandError> {
     let Some(path) = path else { return Ok(()) };

@@ -8,7 +8,7 @@ use super::{CommandError, counted, input::load, run};
 use crate::{
     case::{
         BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Reference, Sides,
-        UnitKind, Units, Wave,
+        UnitKind, Units, Wave, Wavemaker,
     },
     output::{OutputSize, progress::readable},
     rigid::{RigidSetup, RigidWorld},
@@ -130,7 +130,7 @@ fn print(case: &Case) {
                 wave.wavelength_m(),
                 wave.depth_m
             );
-            if case.wavemaker.is_ml_piston() {
+            if case.wavemaker.follows_flume_model() {
                 println!("; inflow");
             } else {
                 let motion = case.wavemaker.motion(wave, *ramp_periods, case.flume.profile.z(case.domain.x[0]));
@@ -147,7 +147,9 @@ fn print(case: &Case) {
             sea.significant_height_m, sea.peak_period_s, sea.peak_enhancement, sea.seed, sea.depth_m
         ),
     }
-    if let Some(distance) = case.wavemaker.absorption_gauge() {
+    if let Wavemaker::OpenEnds { gauge } = case.wavemaker {
+        println!("  ends        open: water flows as in the flume model; gauges {gauge} m from the ends");
+    } else if let Some(distance) = case.wavemaker.absorption_gauge() {
         println!("  wavemaker   absorbs returning waves, gauge {distance} m in front of it");
     }
     let across = match case.domain.sides {

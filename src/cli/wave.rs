@@ -48,7 +48,7 @@ impl WaveArguments {
         if matches!(case.wave, Wave::External(_)) {
             return refuse("wave.kind: the wave is read from files of another program; this case has no flume model");
         }
-        if case.wave != Wave::None && !case.wavemaker.is_ml_piston() {
+        if case.wave != Wave::None && !case.wavemaker.follows_flume_model() {
             return refuse(
                 "wavemaker.kind: the paddle makes the wave in the particle domain; this case has no flume model. \
                  `breakwater check` shows the wavelength and the stroke",

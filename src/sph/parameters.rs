@@ -66,4 +66,9 @@ impl Parameters {
             periodic_width,
         }
     }
+
+    /// Returns true if pressure acts on units through gaps that are too narrow for water particles.
+    pub fn has_gap_pressure(&self) -> bool {
+        self.gap_pressure && self.boundary == BoundaryCondition::ModifiedDynamic
+    }
 }

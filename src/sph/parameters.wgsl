@@ -9,8 +9,6 @@ struct Parameters {
     size: vec3<f32>,
     // Number of boundary particles.
     boundary: u32,
-    // Number of boundary particles of bed, walls and wavemaker; the other boundary particles belong to units.
-    walls: u32,
     // Width of a periodic domain [m].
     width: f32,
     // Smoothing length h [m].
@@ -35,7 +33,7 @@ struct Parameters {
     gravity: f32,
     // Vertical density gradient at hydrostatic pressure, -rho0 g / c0^2 [kg/m4]; mDBC extrapolates densities with it.
     density_slope: f32,
-    padding: f32,
+    padding: vec2<f32>,
     // Between these limits, the trust in a fitted gradient changes: limits of the distance from a ghost node to the
     // centroid of the water around it [h], and of the spread of this water [h2] (mdbc.rs).
     centroid_limits: vec2<f32>,
@@ -69,7 +67,7 @@ struct Record {
     place: vec4<f32>,
     // Velocity [m/s] and volume [m3].
     motion: vec4<f32>,
-    // rho - rho0 [kg/m3], pressure [Pa], speed of sound [m/s], kind of particle (WATER, WALL or UNIT).
+    // rho - rho0 [kg/m3], pressure [Pa], speed of sound [m/s], kind of particle: WATER, WALL, or UNIT + k for unit k.
     state: vec4<f32>,
 }
 

@@ -23,6 +23,21 @@ fn tutorial() -> Value {
     case
 }
 
+/// A solitary wave that passes through a short domain with open ends, in two dimensions.
+fn open_ends() -> Value {
+    json!({
+        "title": "open ends",
+        "flume": { "bed_m": [[0.0, 0.0], [12.0, 0.0]], "still_water_level_m": 0.3,
+                   "right_end": { "kind": "radiating" } },
+        "domain": { "x_m": [3.0, 4.0], "sides": "two_dimensional", "top_z_m": 0.5, "dp_m": 0.03,
+                    "start_at_share": 0.3 },
+        "wave": { "kind": "solitary", "height_m": 0.1 },
+        "wavemaker": { "kind": "open_ends" },
+        "output": { "fluid_interval_s": 0.1, "series_interval_s": 0.01, "checkpoint_interval_s": 0.05 },
+        "stop": { "duration_s": 1.5 }
+    })
+}
+
 /// Pseudo-random numbers in [0, 1), from the linear congruential generator of Knuth's MMIX computer.
 struct Random(u64);
 
@@ -92,6 +107,11 @@ fn killed_runs_end_with_the_results_of_an_unbroken_run() {
     case["output"]["checkpoint_interval_s"] = json!(0.02);
     case["stop"]["duration_s"] = json!(0.6);
     kill_and_resume(&case, 5);
+}
+
+#[test]
+fn killed_runs_with_open_ends_have_the_results_of_an_unbroken_run() {
+    kill_and_resume(&open_ends(), 3);
 }
 
 #[test]

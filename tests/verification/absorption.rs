@@ -51,7 +51,7 @@ fn crests(dp: f64, height: f64, absorbs: bool) -> [f64; 2] {
         crests[0],
         crests[1],
         100.0 * crests[1] / crests[0],
-        tank.absorbed.displacement_m
+        tank.ends[0].state.absorbed.displacement_m
     );
     crests
 }

@@ -73,7 +73,7 @@ fn simulation(folder: &Path, wave: &Value) -> Simulation {
 
 /// Returns displacements [m] and velocities [m/s] of the piston rows every 0.1 s.
 fn motion(simulation: &Simulation) -> Vec<[f64; 2]> {
-    let Some(Wavemaker::MlPiston(piston)) = &simulation.wavemaker else {
+    let Some(Wavemaker::MlPiston(piston)) = simulation.ends.first().map(|end| &end.wavemaker) else {
         panic!("the wavemaker is not a multi-layer piston")
     };
     let rows = |k: i32| {

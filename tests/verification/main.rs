@@ -17,6 +17,7 @@ mod fudo_waves;
 mod given_waves;
 mod incoming_waves;
 mod lattice;
+mod open_ends;
 mod operators;
 mod regular_waves;
 mod reproducibility;

@@ -233,7 +233,7 @@ fn rows(simulation: &mut Simulation, time: f64) -> Vec<[f64; 3]> {
         simulation.time = time;
         simulation.place_boundary();
         let boundary = &simulation.boundary;
-        boundary.piston().map(|i| (boundary.position[i], boundary.velocity[i])).collect::<Vec<_>>()
+        boundary.pistons().map(|i| (boundary.position[i], boundary.velocity[i])).collect::<Vec<_>>()
     };
     let (rest, moved) = (at(0.0), at(time));
     rest.iter().zip(&moved).map(|((p, _), (now, v))| [now.x - p.x, v.x, p.z]).collect()

@@ -30,7 +30,7 @@ const PASSING: f64 = 5.2;
 fn rows_of_the_wavemaker_follow_the_multi_layer_piston() {
     let mut simulation = simulation(&flume(PASSING - 0.8, 0.032));
     let piston = ml_piston(&simulation.case, simulation.flume.as_ref().unwrap(), simulation.start);
-    let particles = simulation.boundary.piston();
+    let particles = simulation.boundary.pistons();
     let anchors = simulation.boundary.position[particles.clone()].to_vec();
     assert!(!anchors.is_empty());
     let mut furthest = 0.0_f64;

@@ -113,6 +113,9 @@ pub enum SolitaryTheory {
 pub enum WavemakerFile {
     /// Multi-layer piston, for all waves. Its rows move with the water of the flume model or of the wave files.
     MlPiston(PistonFile),
+    /// Open ends, for waves of the flume model: at both ends of the domain, water flows in and out with the velocity of
+    /// the flume model, and waves that the structure sends back leave the domain.
+    OpenEnds(OpenEndsFile),
     /// Rigid piston, for solitary and regular waves. Its motion follows from wave theory for the depth at the piston.
     Piston(PistonFile),
     /// Flap that rotates about a hinge, for regular waves. Its motion follows from first-order wave theory.
@@ -141,6 +144,17 @@ pub struct PistonFile {
     /// generated wave. By default, there is no absorption.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub absorption_gauge_m: Option<f64>,
+}
+
+/// Options of open ends.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OpenEndsFile {
+    /// Distance of a gauge from each end [m]. The elevation at the gauge minus the elevation of the flume model is the
+    /// wave that leaves the domain. Default: half the still water depth at the seaward end, at least six particle
+    /// spacings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gauge_m: Option<f64>,
 }
 
 /// A flap that rotates about a hinge.

@@ -78,9 +78,9 @@ impl Domain {
         Site { profile: flume.profile.clone(), terrain: None, x, width, sides, top_z }
     }
 
-    /// Returns the levels z of the wavemaker's rows [m], from the bed to the top of the walls.
-    pub fn wavemaker_rows(&self, flume: &Flume) -> Vec<f64> {
-        let bed = flume.profile.z(self.x[0]);
+    /// Returns the levels z of the rows of a moving end at x [m], from the bed to the top of the walls [m].
+    pub fn wavemaker_rows(&self, flume: &Flume, x: f64) -> Vec<f64> {
+        let bed = flume.profile.z(x);
         (0..).map(|row| bed + (f64::from(row) + 0.5) * self.dp).take_while(|&z| z < self.top_z).collect()
     }
 }

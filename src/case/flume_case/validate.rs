@@ -36,7 +36,7 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
     let fluid = numerics::validate_fluid(&file.fluid, domain.as_ref().map(|domain| domain.depth), check);
     let stop = stop::validate(&file.stop, file.units.is_some(), check);
     let numerics = validate_numerics(file, &stop, check);
-    let wavemaker = wavemaker::validate(&file.wavemaker, &file.wave, flume.as_ref(), check);
+    let wavemaker = wavemaker::validate(&file.wavemaker, &file.wave, flume.as_ref(), domain.as_ref(), check);
     let sections = Sections { file, name: &document.name, flume, domain };
     let wave = sections.wave(wavemaker, check);
     let contact = contact::validate(&file.contact, check);

@@ -82,7 +82,7 @@ impl Reach {
         match wave {
             WaveFile::None {} => Self::DomainWithoutWave,
             WaveFile::File(_) => Self::DomainWithPaddle,
-            _ if wavemaker.is_ml_piston() => Self::Flume,
+            _ if wavemaker.follows_flume_model() => Self::Flume,
             _ => Self::DomainWithPaddle,
         }
     }

@@ -77,7 +77,7 @@ pub fn validate(
     let base = Path::new(case_name).parent().unwrap_or(Path::new(""));
     match read(&file.source, base, &place, check)? {
         Ok(table) => {
-            let rows = table.velx([x0, 0.0], &domain.wavemaker_rows(flume));
+            let rows = table.velx([x0, 0.0], &domain.wavemaker_rows(flume, x0));
             Some(ExternalWave { rows: Arc::new(rows), celerity: file.celerity_m_s })
         }
         Err(error) => {

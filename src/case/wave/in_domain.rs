@@ -1,7 +1,7 @@
 //! Checks the wave and its wavemaker against the particle domain.
 
 use super::Wave;
-use super::wavemaker::Wavemaker;
+use super::wavemaker::{NEAREST_GAUGE, NEAREST_OPEN_GAUGE, Wavemaker};
 use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
 use crate::case::flume::zones::RelaxationZone;
@@ -17,28 +17,36 @@ const EVEN_SLOPE: f64 = 0.02;
 /// Validates position and stroke of the wavemaker against the particle domain.
 pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain: &Domain, check: &mut Checker) {
     let depth = flume.still_depth(domain.x[0]);
-    // A wavemaker acts as a wall only if the water in front of it is at least four particles deep.
-    if depth < 4.0 * domain.dp {
-        check.reject(
-            "domain.x_m[0]",
-            as_text(domain.x[0]),
-            format!("in still water at least 4 particles deep (the depth there is {} m)", as_text(depth)),
-            "move the seaward end of the domain away from the shore",
-        );
+    // A moving end acts as a wall only if the water in front of it is at least four particles deep.
+    let is_open = matches!(wavemaker, Wavemaker::OpenEnds { .. });
+    for (end, name) in ["seaward", "shoreward"].into_iter().enumerate().take(if is_open { 2 } else { 1 }) {
+        let depth = flume.still_depth(domain.x[end]);
+        if depth < 4.0 * domain.dp {
+            check.reject(
+                &format!("domain.x_m[{end}]"),
+                as_text(domain.x[end]),
+                format!("in still water at least 4 particles deep (the depth there is {} m)", as_text(depth)),
+                format!("move the {name} end of the domain away from the shore"),
+            );
+        }
     }
     if let Some(gauge) = wavemaker.absorption_gauge() {
-        // A gauge closer than four particle spacings would measure the gap between piston and water.
-        let (nearest, furthest) = (4.0 * domain.dp, 0.5 * (domain.x[1] - domain.x[0]));
+        let (key, nearest) = if is_open {
+            ("wavemaker.gauge_m", NEAREST_OPEN_GAUGE * domain.dp)
+        } else {
+            ("wavemaker.absorption_gauge_m", NEAREST_GAUGE * domain.dp)
+        };
+        let furthest = 0.5 * (domain.x[1] - domain.x[0]);
         let advice = "a distance of about one depth is usual";
-        check.number("wavemaker.absorption_gauge_m", gauge, at_least(nearest).up_to(furthest), "m", advice);
+        check.number(key, gauge, at_least(nearest).up_to(furthest), "m", advice);
     }
     match wave {
         Wave::None | Wave::External(_) => {}
-        Wave::Solitary(wave) if wavemaker.is_ml_piston() => {
+        Wave::Solitary(wave) if wavemaker.follows_flume_model() => {
             let nearest = flume.ends()[0] + wave.stroke_m();
             validate_distance("shoreward of the stroke of the flume's piston", nearest, domain, check);
         }
-        _ if wavemaker.is_ml_piston() => {
+        _ if wavemaker.follows_flume_model() => {
             let nearest = flume.ends()[0] + flume.offshore_depth();
             validate_distance("more than one water depth from the inflow", nearest, domain, check);
         }
@@ -121,7 +129,7 @@ fn warn_of_order(wave: &RegularWave, wavemaker: Wavemaker, check: &mut Checker) 
 
 /// Refuses a relaxation zone if the wave does not come from the flume model.
 pub fn refuse_relaxation_zone(zone: Option<&RelaxationZone>, wave: &Wave, wavemaker: Wavemaker, check: &mut Checker) {
-    let from_flume = wavemaker.is_ml_piston() && !matches!(wave, Wave::None | Wave::External(_));
+    let from_flume = wavemaker.follows_flume_model() && !matches!(wave, Wave::None | Wave::External(_));
     if zone.is_some() && !from_flume {
         check.reject(
             "domain.relaxation_zone",

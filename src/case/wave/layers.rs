@@ -19,7 +19,7 @@ const PERIODS: u32 = 16;
 pub(super) fn validate(wave: &Wave, around: &Surroundings, check: &mut Checker) {
     let (Some(flume), Some(domain)) = (around.flume, around.domain) else { return };
     let periods = match wave {
-        _ if !around.wavemaker.is_ml_piston() => return,
+        _ if !around.wavemaker.follows_flume_model() => return,
         Wave::Regular { wave, .. } => vec![wave.period_s],
         Wave::Irregular { sea, .. } => {
             let Ok(components) = IrregularWave::new(*sea) else { return };

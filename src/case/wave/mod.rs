@@ -102,7 +102,7 @@ pub(super) fn validate(file: &WaveFile, around: &Surroundings, check: &mut Check
             "remove `domain.water` for a wave, or `wave` for a dam break",
         );
     }
-    if !around.wavemaker.is_ml_piston() {
+    if !around.wavemaker.follows_flume_model() {
         refuse_start(around.domain_file, check);
     }
     let wave = match file {
@@ -148,7 +148,7 @@ impl Surroundings<'_> {
     /// Returns the still water depth where the wave is generated [m].
     fn depth(&self) -> Option<f64> {
         let flume = self.flume?;
-        if self.wavemaker.is_ml_piston() {
+        if self.wavemaker.follows_flume_model() {
             return Some(flume.offshore_depth());
         }
         Some(flume.still_depth(self.domain?.x[0]))
@@ -157,7 +157,7 @@ impl Surroundings<'_> {
     /// Returns the bed level where the wave is generated [m].
     fn bed_z(&self) -> Option<f64> {
         let flume = self.flume?;
-        if self.wavemaker.is_ml_piston() {
+        if self.wavemaker.follows_flume_model() {
             return Some(flume.still_water_level - flume.offshore_depth());
         }
         Some(flume.profile.z(self.domain?.x[0]))
@@ -169,7 +169,7 @@ impl Surroundings<'_> {
         if depth > 0.0 {
             return Some(depth);
         }
-        if self.wavemaker.is_ml_piston() {
+        if self.wavemaker.follows_flume_model() {
             check.reject(
                 "flume.still_water_level_m",
                 as_text(self.flume?.still_water_level),

@@ -36,7 +36,7 @@ pub(super) fn solitary(file: &SolitaryFile, around: &Surroundings, check: &mut C
         SolitaryTheory::Boussinesq => piston(PistonTheory::Boussinesq),
         SolitaryTheory::Rayleigh => piston(PistonTheory::Rayleigh),
         SolitaryTheory::ThirdOrder => {
-            if !around.wavemaker.is_ml_piston() {
+            if !around.wavemaker.follows_flume_model() {
                 check.reject(
                     "wave.theory",
                     "\"third_order\"",
@@ -76,7 +76,7 @@ pub(super) fn regular(file: &RegularFile, around: &Surroundings, check: &mut Che
         "m",
         &format!("higher waves of this period (wavelength {} m, depth {} m) break", as_text(length), as_text(depth)),
     );
-    if is_valid && around.wavemaker.is_ml_piston() {
+    if is_valid && around.wavemaker.follows_flume_model() {
         let permanent = StreamFunctionWave::new(wave, MeanFlow::NoTransport);
         refuse_impossible(permanent.err(), "wave.height_m", height_m, check);
     }

@@ -2,6 +2,7 @@
 
 use crate::case::file::{WaveFile, WavemakerFile};
 use crate::case::flume::bed::Flume;
+use crate::case::flume::domain::Domain;
 use crate::case::reading::check::{Checker, at_least};
 use crate::waves::generation::paddle_motion::{PaddleShape, RegularMotion};
 use crate::waves::theory::regular::RegularWave;
@@ -9,13 +10,26 @@ use crate::waves::theory::regular::RegularWave;
 /// Largest allowed distance of a hinge from z = 0 [m]. Larger values are probably typing errors.
 const FURTHEST_HINGE: f64 = 1e5;
 
-/// Wavemaker at the seaward end of the particle domain.
+/// Smallest distance of an absorption gauge from the piston, divided by the particle spacing [-]. A nearer gauge would
+/// measure the gap between piston and water.
+pub(super) const NEAREST_GAUGE: f64 = 4.0;
+/// The same for the gauges of open ends, which measure the volume of the water within the kernel support [-].
+pub(super) const NEAREST_OPEN_GAUGE: f64 = 6.0;
+/// Distance of the gauges of open ends, divided by the still water depth at the seaward end [-].
+const USUAL_GAUGE: f64 = 0.5;
+
+/// Wavemaker at the seaward end of the particle domain, or open ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wavemaker {
     /// Multi-layer piston. Its rows move with the water of the flume model or of the wave files.
     MlPiston {
         /// Distance of the absorption gauge from the piston, if there is one [m].
         absorption_gauge: Option<f64>,
+    },
+    /// Open ends: at both ends of the domain, water flows in and out as in the flume model.
+    OpenEnds {
+        /// Distance of the gauges from the ends [m].
+        gauge: f64,
     },
     /// A rigid piston.
     Piston {
@@ -30,15 +44,17 @@ pub enum Wavemaker {
 }
 
 impl Wavemaker {
-    /// Returns true for the multi-layer piston, which takes the wave from the flume model or from files.
-    pub fn is_ml_piston(&self) -> bool {
-        matches!(self, Self::MlPiston { .. })
+    /// Returns true for the multi-layer piston and for open ends, which take the wave from the flume model or from
+    /// files.
+    pub fn follows_flume_model(&self) -> bool {
+        matches!(self, Self::MlPiston { .. } | Self::OpenEnds { .. })
     }
 
     /// Returns the distance of the absorption gauge from the piston, if there is one [m].
     pub fn absorption_gauge(&self) -> Option<f64> {
         match *self {
             Self::MlPiston { absorption_gauge } | Self::Piston { absorption_gauge } => absorption_gauge,
+            Self::OpenEnds { gauge } => Some(gauge),
             Self::Flap { .. } => None,
         }
     }
@@ -46,7 +62,7 @@ impl Wavemaker {
     /// Returns the shape of the paddle; `bed_z` is the bed level at the paddle [m].
     pub fn shape(self, bed_z: f64) -> PaddleShape {
         match self {
-            Self::MlPiston { .. } | Self::Piston { .. } => PaddleShape::Piston,
+            Self::MlPiston { .. } | Self::OpenEnds { .. } | Self::Piston { .. } => PaddleShape::Piston,
             Self::Flap { hinge_z } => PaddleShape::Flap { hinge_m: hinge_z - bed_z },
         }
     }
@@ -58,7 +74,13 @@ impl Wavemaker {
 }
 
 /// Validates the wavemaker and refuses combinations with the wave that are not implemented.
-pub fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flume>, check: &mut Checker) -> Wavemaker {
+pub fn validate(
+    file: &WavemakerFile,
+    wave: &WaveFile,
+    flume: Option<&Flume>,
+    domain: Option<&Domain>,
+    check: &mut Checker,
+) -> Wavemaker {
     let mut refuse = |value: &str, allowed: &str, advice: &str| {
         check.reject("wavemaker.kind", format!("{value:?}"), allowed, advice);
     };
@@ -67,6 +89,11 @@ pub fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flume>, ch
             kind_name(file),
             "left out while `wave` is left out or \"none\"",
             "add a wave, e.g. \"wave\": { \"kind\": \"regular\", \"height_m\": 0.1, \"period_s\": 1.2 }",
+        ),
+        (WaveFile::None {} | WaveFile::File(_), WavemakerFile::OpenEnds(_)) => refuse(
+            kind_name(file),
+            "\"ml_piston\" while no wave comes from the flume model",
+            "remove `wavemaker`, or use a wave that the flume model carries",
         ),
         (WaveFile::Solitary(_), WavemakerFile::Flap(_)) => refuse(
             kind_name(file),
@@ -98,6 +125,12 @@ pub fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flume>, ch
             Wavemaker::MlPiston { absorption_gauge: None }
         }
         WavemakerFile::MlPiston(piston) => Wavemaker::MlPiston { absorption_gauge: piston.absorption_gauge_m },
+        WavemakerFile::OpenEnds(ends) => {
+            let usual = |(flume, domain): (&Flume, &Domain)| {
+                (USUAL_GAUGE * flume.still_depth(domain.x[0])).max(NEAREST_OPEN_GAUGE * domain.dp)
+            };
+            Wavemaker::OpenEnds { gauge: ends.gauge_m.or(flume.zip(domain).map(usual)).unwrap_or(f64::NAN) }
+        }
         WavemakerFile::Piston(piston) => Wavemaker::Piston { absorption_gauge: piston.absorption_gauge_m },
         WavemakerFile::Flap(flap) => {
             let highest = flume.map_or(FURTHEST_HINGE, |flume| flume.still_water_level);
@@ -117,6 +150,7 @@ pub fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flume>, ch
 fn kind_name(file: &WavemakerFile) -> &'static str {
     match file {
         WavemakerFile::MlPiston(_) => "ml_piston",
+        WavemakerFile::OpenEnds(_) => "open_ends",
         WavemakerFile::Piston(_) => "piston",
         WavemakerFile::Flap(_) => "flap",
     }

@@ -76,7 +76,8 @@ impl Simulation {
         };
         let since_row = self.statistics.take_water_since_row();
         let [mach, lowest, highest] = since_row.or_else(|| of_now(&self.water)).unwrap_or([f64::NAN; 3]);
-        let lost = start.1 as f64 - self.water.len() as f64;
+        let [released, taken] = self.statistics.exchanged.map(|count| count as f64);
+        let lost = start.1 as f64 + released - taken - self.water.len() as f64;
         let steps = self.steps as f64;
         [self.flume_time(), volume, volume - start.0, mach, lowest, highest, divergence, steps, dt, lost]
     }

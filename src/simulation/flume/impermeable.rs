@@ -9,7 +9,7 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::{Simulation, Units, wave::absorb::rows};
+use super::{Simulation, Units, wave::ends::MovingEnd};
 use crate::{
     case::{Case, Sides},
     geometry::{axis_box::AxisBox, convex::convex_part::ConvexPart},
@@ -19,7 +19,6 @@ use crate::{
         particles::{bed::Outline, water::Water},
         solver::backend::{DeviceError, Surfaces},
     },
-    waves::generation::wavemaker::Wavemaker,
 };
 
 /// Water particles nearer to a surface than this cannot approach it further: distance divided by the particle spacing
@@ -34,29 +33,23 @@ impl Simulation {
     /// If the device is lost.
     pub(super) fn remove_velocities_into_solids(&mut self, dt: f64) -> Result<(), DeviceError> {
         let flume_time = self.flume_time() + dt;
-        let rows = self.wavemaker.as_ref().map(|wavemaker| rows(wavemaker, &self.absorbed, flume_time, 0.0));
-        let rows = rows.unwrap_or_default();
-        let Self { case, outline, wavemaker, units, solver, water, .. } = self;
+        let rows: Vec<Vec<[f64; 2]>> = self.ends.iter().map(|end| end.rows(flume_time, 0.0)).collect();
+        let Self { case, outline, ends, units, solver, water, bins_near_surfaces, .. } = self;
         let near = match solver.device_memory() {
             Some(memory) => {
-                let surfaces = surfaces(case, outline, units.as_ref(), wavemaker.as_ref(), &rows);
+                let surfaces = surfaces(case, outline, units.as_ref(), ends, &rows);
                 Some(memory.fetch_near_water(&surfaces)?)
             }
             None => None,
         };
         let dp = case.domain.dp;
         let nearest = NEAREST * dp;
-        // A graphics card returns only the particles near surfaces. On a processor, the bins give those near the units.
+        // A graphics card returns only the particles near surfaces. On a processor, the bins give these particles.
         let mut keep_out = |water: &mut Water, bins: Option<&Bins>| {
-            keep_out_of_walls(water, outline, nearest);
-            if case.domain.sides == Sides::Walls {
-                keep_out_of_sides(water, case.domain.width, nearest);
-            }
-            for obstacle in &case.domain.obstacles {
-                keep_out_of_obstacle(water, obstacle, nearest);
-            }
-            if let Some(wavemaker) = wavemaker {
-                keep_out_of_wavemaker(water, wavemaker, &rows, dp, nearest);
+            let is_near = |particle: usize| bins.is_none_or(|bins| bins_near_surfaces[bins.bin_at[particle] as usize]);
+            keep_out_of_fixed_solids(water, case, outline, is_near);
+            for (end, rows) in ends.iter().zip(&rows) {
+                keep_out_of_end(water, end, rows, dp, nearest);
             }
             let Some(units) = units else { return };
             let impulses = keep_out_of_units(water, units, solver.grid(), bins, nearest);
@@ -78,14 +71,14 @@ impl Simulation {
     }
 }
 
-/// Returns the impermeable surfaces for a graphics card. `rows` has the displacement [m] and velocity [m/s] of each row
-/// of the wavemaker.
+/// Returns the impermeable surfaces for a graphics card, which supports only one moving end, a wavemaker. `rows` has the
+/// displacement [m] and velocity [m/s] of each row of the moving ends.
 fn surfaces(
     case: &Case,
     outline: &Outline,
     units: Option<&Units>,
-    wavemaker: Option<&Wavemaker>,
-    rows: &[[f64; 2]],
+    ends: &[MovingEnd],
+    rows: &[Vec<[f64; 2]>],
 ) -> Surfaces {
     let nearest = NEAREST * case.domain.dp;
     let bounding_spheres = units.into_iter().flat_map(|units| {
@@ -103,8 +96,8 @@ fn surfaces(
         outline: outline.segments().map(|[a, b]| [a.x, a.y, b.x, b.y]).collect(),
         obstacles: case.domain.obstacles.iter().map(|obstacle| [obstacle.low, obstacle.high]).collect(),
         bounding_spheres: bounding_spheres.collect(),
-        wavemaker: wavemaker.map(|wavemaker| {
-            (wavemaker.rest_x_m(), wavemaker.row_heights_m()[0], rows.iter().map(|row| row[0]).collect())
+        wavemaker: ends.first().zip(rows.first()).map(|(end, rows)| {
+            (end.wavemaker.rest_x_m(), end.wavemaker.row_heights_m()[0], rows.iter().map(|row| row[0]).collect())
         }),
         sides: (case.domain.sides == Sides::Walls).then_some(case.domain.width),
     }
@@ -115,75 +108,112 @@ fn without_approach(velocity: DVec3, normal: DVec3) -> DVec3 {
     velocity - velocity.dot(normal).min(0.0) * normal
 }
 
-fn keep_out_of_walls(water: &mut Water, outline: &Outline, nearest: f64) {
-    (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
-        let place = DVec2::new(position.x, position.z);
-        if let Some(normal) = outline.normal_within(place, nearest) {
-            *velocity = without_approach(*velocity, DVec3::new(normal.x, 0.0, normal.y));
-        }
-    });
+/// Returns for each bin whether its particles can be nearer than [`NEAREST`] to bed, end walls, side walls or obstacles
+/// at the end of the time step. Half a bin is allowed for their motion since they were sorted into bins.
+pub(super) fn bins_near_surfaces(case: &Case, outline: &Outline, grid: &Grid) -> Vec<bool> {
+    let [nx, ny, nz] = grid.count;
+    let reach = NEAREST * case.domain.dp + 0.5 * grid.size.length() + 0.5 * grid.size.x;
+    let has_side_walls = case.domain.sides == Sides::Walls;
+    let middle = |axis: usize, bin: usize| grid.low[axis] + (bin as f64 + 0.5) * grid.size[axis];
+    let is_near = |bin: usize| {
+        let (ix, iy, iz) = (bin % nx, bin / nx % ny, bin / nx / ny);
+        // The outermost bins also contain the particles outside the grid.
+        let is_outermost = [(ix, nx), (iz, nz)].iter().any(|(i, n)| *i == 0 || i + 1 == *n);
+        let centre = DVec3::new(middle(0, ix), middle(1, iy), middle(2, iz));
+        is_outermost
+            || outline.normal_within(DVec2::new(centre.x, centre.z), reach).is_some()
+            || (has_side_walls && centre.y.min(case.domain.width - centre.y) < reach)
+            || case.domain.obstacles.iter().any(|obstacle| obstacle.nearest(centre).distance(centre) < reach)
+    };
+    (0..grid.bins()).into_par_iter().map(is_near).collect()
 }
 
-fn keep_out_of_obstacle(water: &mut Water, obstacle: &AxisBox, nearest: f64) {
-    (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
-        // Skip the many particles that are not near the obstacle, before the slower search for the surface point.
-        if (*position - obstacle.nearest(*position)).length_squared() >= nearest * nearest {
+/// Removes the velocity components towards bed, end walls, side walls and obstacles of the particles for which
+/// `is_near` is true.
+fn keep_out_of_fixed_solids(water: &mut Water, case: &Case, outline: &Outline, is_near: impl Fn(usize) -> bool + Sync) {
+    let (domain, nearest) = (&case.domain, NEAREST * case.domain.dp);
+    let particles = (&water.position, &mut water.velocity).into_par_iter().enumerate().with_min_len(4096);
+    particles.for_each(|(particle, (position, velocity))| {
+        if !is_near(particle) {
             return;
         }
-        let (surface, distance) = obstacle.locate(*position);
-        let outwards = if distance > 0.0 { *position - surface } else { surface - *position };
-        if let Some(normal) = outwards.try_normalize() {
-            *velocity = without_approach(*velocity, normal);
+        if let Some(normal) = outline.normal_within(DVec2::new(position.x, position.z), nearest) {
+            *velocity = without_approach(*velocity, DVec3::new(normal.x, 0.0, normal.y));
+        }
+        if domain.sides == Sides::Walls {
+            if position.y < nearest {
+                velocity.y = velocity.y.max(0.0);
+            }
+            if position.y > domain.width - nearest {
+                velocity.y = velocity.y.min(0.0);
+            }
+        }
+        for obstacle in &domain.obstacles {
+            if let Some(normal) = normal_of_obstacle(obstacle, *position, nearest) {
+                *velocity = without_approach(*velocity, normal);
+            }
         }
     });
 }
 
-fn keep_out_of_sides(water: &mut Water, width: f64, nearest: f64) {
-    (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
-        if position.y < nearest {
-            velocity.y = velocity.y.max(0.0);
-        }
-        if position.y > width - nearest {
-            velocity.y = velocity.y.min(0.0);
-        }
-    });
+/// Returns the outward normal of an obstacle at `position`; `None` if this point is not within `nearest` [m] of the
+/// obstacle.
+fn normal_of_obstacle(obstacle: &AxisBox, position: DVec3, nearest: f64) -> Option<DVec3> {
+    // Skip particles that are not near the obstacle, before the slower search for the surface point.
+    if (position - obstacle.nearest(position)).length_squared() >= nearest * nearest {
+        return None;
+    }
+    let (surface, distance) = obstacle.locate(position);
+    (if distance > 0.0 { position - surface } else { surface - position }).try_normalize()
 }
 
-fn keep_out_of_wavemaker(water: &mut Water, wavemaker: &Wavemaker, rows: &[[f64; 2]], dp: f64, nearest: f64) {
-    let place = wavemaker.rest_x_m();
-    let furthest = rows.iter().map(|row| row[0]).fold(f64::MIN, f64::max) + place + nearest;
-    let lowest = wavemaker.row_heights_m()[0];
+/// Removes the velocity components of near water particles towards the rows of a moving end, which have the
+/// displacements [m] and velocities [m/s] `rows`.
+fn keep_out_of_end(water: &mut Water, end: &MovingEnd, rows: &[[f64; 2]], dp: f64, nearest: f64) {
+    let (place, inwards, lowest) = (end.wavemaker.rest_x_m(), end.inwards, end.wavemaker.row_heights_m()[0]);
+    let furthest = rows.iter().map(|row| inwards * row[0]).fold(f64::MIN, f64::max) + nearest;
     (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
-        if position.x > furthest {
+        let inside = inwards * (position.x - place);
+        if inside > furthest {
             return;
         }
         let row = ((position.z - lowest) / dp).round().clamp(0.0, (rows.len() - 1) as f64) as usize;
         let [displacement, speed] = rows[row];
-        if position.x < place + displacement + nearest {
-            velocity.x = velocity.x.max(speed);
+        if inside < inwards * displacement + nearest {
+            velocity.x = inwards * (inwards * velocity.x).max(inwards * speed);
         }
     });
+}
+
+/// A water particle near a unit.
+struct NearUnit {
+    particle: usize,
+    /// Vector from the centre of mass of the unit to the particle [m].
+    arm: DVec3,
+    /// Outward normal of the unit at the particle.
+    normal: DVec3,
 }
 
 /// Removes the velocity components of near water particles towards the units. Returns the impulse on each unit [N s],
 /// and its moment about the centre of mass [N m s].
 fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: Option<&Bins>, nearest: f64) -> Vec<Load> {
-    let reach = units.shape.parts().iter().map(reach_of).fold(0.0, f64::max) + nearest;
-    let keep_out = |state: &BodyState| {
-        let mut impulse = Load::default();
-        let near: Vec<usize> = match bins {
-            Some(bins) => candidates(grid, bins, state.position, reach).collect(),
-            None => (0..water.len()).collect(),
+    let position = &water.position;
+    let near = |state: &BodyState| -> Vec<NearUnit> {
+        let within = |particle| {
+            let arm = grid.nearest_image(position[particle] - state.position);
+            let normal = normal_within(units.shape.parts(), state, arm, nearest)?;
+            Some(NearUnit { particle, arm, normal })
         };
-        for particle in near {
-            let mut arm = water.position[particle] - state.position;
-            if let Some(width) = grid.periodic_width {
-                arm.y -= width * (arm.y / width).round();
-            }
-            if arm.length_squared() > reach * reach {
-                continue;
-            }
-            let Some(normal) = normal_within(units.shape.parts(), state, arm, nearest) else { continue };
+        let reach = units.shape.parts().iter().map(reach_of).fold(0.0, f64::max) + nearest;
+        match bins {
+            Some(bins) => candidates(grid, bins, state.position, reach).filter_map(within).collect(),
+            None => (0..water.len()).filter_map(within).collect(),
+        }
+    };
+    let near: Vec<Vec<NearUnit>> = units.states().par_iter().map(near).collect();
+    let mut keep_out = |(state, near): (&BodyState, &Vec<NearUnit>)| {
+        let mut impulse = Load::default();
+        for &NearUnit { particle, arm, normal } in near {
             let surface = state.velocity + state.angular_velocity.cross(arm);
             let velocity = surface + without_approach(water.velocity[particle] - surface, normal);
             let taken = water.mass[particle] * (water.velocity[particle] - velocity);
@@ -192,7 +222,7 @@ fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: Option
         }
         impulse
     };
-    units.states().iter().map(keep_out).collect()
+    units.states().iter().zip(&near).map(&mut keep_out).collect()
 }
 
 /// Returns the radius of the sphere around the centre of mass that contains the part [m].
@@ -205,12 +235,19 @@ fn reach_of(part: &ConvexPart) -> f64 {
 /// within `nearest` [m] of the surface.
 fn normal_within(parts: &[ConvexPart], state: &BodyState, arm: DVec3, nearest: f64) -> Option<DVec3> {
     let local = state.rotation.inverse() * arm;
-    let distances = parts.iter().map(|part| (part, part.distance(local)));
+    let can_be_near = |part: &&ConvexPart| {
+        let (centre, radius) = part.bounding_sphere();
+        centre.distance_squared(local) < (radius + nearest).powi(2)
+    };
+    let distances = parts.iter().filter(can_be_near).map(|part| (part, part.distance(local)));
     let (part, distance) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    if distance >= nearest {
+        return None;
+    }
     // The core is the part without its rounding. Outside the core, the normal points away from the core; inside, it
     // points away from the centre of mass.
     let outwards = (local - part.nearest(local)).try_normalize().or(local.try_normalize())?;
-    (distance < nearest).then(|| state.rotation * outwards)
+    Some(state.rotation * outwards)
 }
 
 /// Returns the water particles in the bins within `reach` [m] of `centre`. A margin of half a bin covers the motion of
@@ -219,9 +256,8 @@ fn candidates<'a>(grid: &Grid, bins: &'a Bins, centre: DVec3, reach: f64) -> imp
     let [nx, ny, _] = grid.count;
     let margin = reach + 0.5 * grid.size.x;
     let along = |axis: usize| grid.along(axis, centre[axis] - margin)..=grid.along(axis, centre[axis] + margin);
-    let (x, z) = (along(0), along(2));
-    let y = if grid.periodic_width.is_some() { 0..=ny - 1 } else { along(1) };
-    let rows = z.flat_map(move |iz| y.clone().map(move |iy| (iz * ny + iy) * nx));
+    let (x, y, z) = (along(0), grid.rows_across(centre.y - margin, centre.y + margin), along(2));
+    let rows = z.flat_map(move |iz| y.clone().map(move |iy| (iz * ny + iy % ny) * nx));
     rows.flat_map(move |row| bins.start[row + x.start()] as usize..bins.start[row + x.end() + 1] as usize)
 }
 

@@ -9,7 +9,7 @@
 //! | [`failure`] | failures of a time step: cause, position, advice |
 //! | `diagnostics` | rows of `diagnostics.csv`, and warnings if the water is too fast |
 //! | `impermeable` | impermeable surfaces: no water particle flows into a solid |
-//! | [`wave`] | wave of a case, active absorption, damping and relaxation zones |
+//! | [`wave`] | wave of a case, wavemaker and open ends, damping and relaxation zones |
 //! | [`measures`] | energy balance, extremes, mean loads, rest criterion: quantities that a run accumulates |
 //! | [`outputs`] | tables, ParaView files, checkpoints, summary |
 
@@ -38,12 +38,10 @@ use crate::{
         particles::{bed::Outline, boundary::Boundary, water::Water},
         solver::backend::{Backend, DeviceError},
     },
-    waves::{
-        flume_model::record::FlumeRecord, generation::absorption::AbsorptionState, generation::wavemaker::Wavemaker,
-    },
+    waves::flume_model::record::FlumeRecord,
 };
 use measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts};
-use wave::absorb::move_wavemaker;
+use wave::ends::{MovingEnd, move_ends};
 
 /// State of a flume run.
 pub struct Simulation {
@@ -69,12 +67,14 @@ pub struct Simulation {
     /// Extremes and counts since the start of the run.
     pub statistics: Statistics,
     solver: Box<dyn Backend>,
-    /// Wavemaker of the particle domain; `None` if the case has no wave.
-    pub wavemaker: Option<Wavemaker>,
-    /// Additional motion of the wavemaker by active absorption.
-    pub absorbed: AbsorptionState,
+    /// Moving ends of the particle domain: none, the wavemaker, or two open ends.
+    pub ends: Vec<MovingEnd>,
+    /// Identification number of the next water particle that an open end releases.
+    next_id: u32,
     /// Outline of bed, mound and end walls.
     outline: Outline,
+    /// For each bin, whether its particles can be near the outline, side walls or obstacles.
+    bins_near_surfaces: Vec<bool>,
     /// Box that no particle may leave [m].
     bounds: [DVec3; 2],
 }
@@ -99,7 +99,7 @@ impl Simulation {
     /// Moves the boundary particles of wavemaker and units to their positions at the current time.
     pub fn place_boundary(&mut self) {
         let flume_time = self.flume_time();
-        move_wavemaker(&mut self.boundary, self.wavemaker.as_ref(), &self.absorbed, flume_time, 0.0);
+        move_ends(&mut self.boundary, &self.ends, flume_time, 0.0);
         if let Some(units) = &self.units {
             units.states().iter().enumerate().for_each(|(k, s)| self.boundary.move_unit(k, s));
         }
@@ -110,11 +110,14 @@ impl Simulation {
         self.start + self.time
     }
 
-    /// Returns the position x of the most shoreward row of the wavemaker [m]; `None` without a wavemaker.
-    pub fn wavemaker_front(&self) -> Option<f64> {
-        let front =
-            |wavemaker: &Wavemaker| wavemaker.foremost_row_x_m(self.flume_time()) + self.absorbed.displacement_m;
-        self.wavemaker.as_ref().map(front)
+    /// Returns the range of x between the moving ends [m]; infinite at ends that do not move.
+    pub fn between_moving_ends(&self) -> [f64; 2] {
+        let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+        for end in &self.ends {
+            let front = end.wavemaker.rest_x_m() + end.inwards * end.foremost(self.flume_time());
+            range[usize::from(end.inwards < 0.0)] = front;
+        }
+        range
     }
 
     /// Returns the current position of a gauge [m].

@@ -70,6 +70,9 @@ pub fn unsupported_on_gpu(case: &Case) -> Option<&'static str> {
     if case.wavemaker.absorption_gauge().is_some() {
         return Some("active absorption by the wavemaker (wavemaker.absorption_gauge_m)");
     }
+    if matches!(case.wavemaker, case::Wavemaker::OpenEnds { .. }) {
+        return Some("open ends (wavemaker.kind = \"open_ends\")");
+    }
     backend::unsupported_on_gpu(&parameters(case))
 }
 

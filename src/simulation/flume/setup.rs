@@ -7,9 +7,13 @@ use thiserror::Error;
 
 use super::{
     Simulation, Units,
+    impermeable::bins_near_surfaces,
     measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts},
     scheme::{parameters, tait},
-    wave::incoming::{crest_time, particle_start, run_flume, wavemaker},
+    wave::{
+        ends::MovingEnd,
+        incoming::{crest_time, ends, particle_start, run_flume},
+    },
 };
 use crate::simulation::bodies::rigid_setup;
 use crate::{
@@ -28,10 +32,7 @@ use crate::{
         },
         solver::backend::DeviceError,
     },
-    waves::{
-        flume_model::FlumeError, flume_model::record::FlumeRecord, generation::absorption::AbsorptionState,
-        generation::wavemaker::Wavemaker,
-    },
+    waves::{flume_model::FlumeError, flume_model::record::FlumeRecord, generation::wavemaker::Wavemaker},
 };
 
 /// Narrowest gap between a unit and its periodic image that water can pass, divided by the particle spacing [-]. A
@@ -100,19 +101,19 @@ impl Simulation {
         let flume = run_flume(&case)?;
         let start = start.unwrap_or_else(|| particle_start(&case, flume.as_ref()));
         check_times(&case, start)?;
-        let wavemaker = wavemaker(&case, flume.as_ref(), start);
-        if let Some(wavemaker) = &wavemaker {
-            check_travel(&case, wavemaker)?;
+        let ends = ends(&case, flume.as_ref(), start);
+        for end in ends.iter().filter(|end| end.open.is_none()) {
+            check_travel(&case, &end.wavemaker)?;
         }
-        let seaward_reach = wavemaker.as_ref().map(Wavemaker::max_seaward_displacement_m);
+        let reach = reach_of(&ends);
         let units = case.units.as_ref().map(|units| set_up_units(&case, units)).transpose()?;
 
-        let (across, outline) = (across(&case), outline(&case, seaward_reach));
+        let (across, outline) = (across(&case), outline(&case, reach));
         let shape_particles = units.as_ref().map_or_else(Vec::new, |units| unit_in_place(&units.shape, &case));
         let count = units.as_ref().map_or(0, |units| units.states().len());
         let boundary = Boundary::new(
-            &fixed_particles(&case, &outline, &across, seaward_reach),
-            &wavemaker.as_ref().map_or_else(Vec::new, |wavemaker| wavemaker_particles(&case, &across, wavemaker)),
+            &fixed_particles(&case, &outline, &across, reach),
+            &ends.iter().map(|end| end_particles(&case, &across, end)).collect::<Vec<_>>(),
             &shape_particles,
             count,
             case.fluid.rho0,
@@ -127,10 +128,13 @@ impl Simulation {
 
         let shoreward = units.iter().flat_map(Units::states).map(|state| state.position.x).reduce(f64::max);
         let crest = shoreward.map_or(0.0, |x| crest_time(&case, flume.as_ref(), start, x));
-        let [low, high] = bounds(&case, seaward_reach);
+        let [low, high] = bounds(&case, reach);
         let allowed = [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)];
+        let next_id = water.len() as u32;
+        let solver = device.solver(parameters(&case), [low, high], allowed)?;
         let mut simulation = Self {
-            solver: device.solver(parameters(&case), [low, high], allowed)?,
+            bins_near_surfaces: bins_near_surfaces(&case, &outline, solver.grid()),
+            solver,
             statistics: Statistics::new(count),
             bounds: allowed,
             case,
@@ -142,8 +146,8 @@ impl Simulation {
             steps: 0,
             start,
             crest,
-            wavemaker,
-            absorbed: AbsorptionState::default(),
+            ends,
+            next_id,
             outline,
         };
         simulation.place_boundary();
@@ -179,15 +183,20 @@ fn across(case: &Case) -> Across {
     Across { width: case.domain.width, count: case.domain.ny as u32, walls: case.domain.sides == case::Sides::Walls }
 }
 
-/// Returns the box around all water and boundary particles [m]. `seaward_reach` is the largest seaward displacement of
-/// the wavemaker [m].
-fn bounds(case: &Case, seaward_reach: Option<f64>) -> [DVec3; 2] {
+/// Returns for the seaward and the shoreward end how far its rows move out of the domain [m]; `None` for an end that
+/// does not move.
+fn reach_of(ends: &[MovingEnd]) -> [Option<f64>; 2] {
+    [1.0, -1.0].map(|inwards| ends.iter().find(|end| end.inwards == inwards).map(MovingEnd::reach))
+}
+
+/// Returns the box around all water and boundary particles [m]; for `reach` see [`reach_of`].
+fn bounds(case: &Case, reach: [Option<f64>; 2]) -> [DVec3; 2] {
     let margin = (case.numerics.boundary_layers as f64 + 2.0) * case.domain.dp;
     let beyond = if case.domain.sides == case::Sides::Walls { margin } else { 0.0 };
     let [x0, x1] = case.domain.x;
     [
-        DVec3::new(x0 - margin - seaward_reach.unwrap_or(0.0), -beyond, case.domain.bottom_z - margin),
-        DVec3::new(x1 + margin, case.domain.width + beyond, case.domain.top_z + margin),
+        DVec3::new(x0 - margin - reach[0].unwrap_or(0.0), -beyond, case.domain.bottom_z - margin),
+        DVec3::new(x1 + margin + reach[1].unwrap_or(0.0), case.domain.width + beyond, case.domain.top_z + margin),
     ]
 }
 
@@ -199,35 +208,32 @@ fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DV
     [end(from)].into_iter().chain(points).chain([end(to)])
 }
 
-/// Returns the outline of bed, mound and end walls. If there is a wavemaker, it replaces the seaward wall, and the bed
-/// continues below it. `seaward_reach` is the largest seaward displacement of the wavemaker [m].
-fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
+/// Returns the outline of bed, mound and end walls. A moving end replaces the wall, and the bed continues below it; for
+/// `reach` see [`reach_of`].
+fn outline(case: &Case, reach: [Option<f64>; 2]) -> Outline {
     let ([x0, x1], top) = (case.domain.x, case.domain.top_z);
     let thickness = case.numerics.boundary_layers as f64 * case.domain.dp;
-    let bed_start = seaward_reach.map_or(x0, |reach| x0 - thickness - reach);
+    let [from, to] = reach.map(|reach| reach.map_or(0.0, |reach| thickness + reach));
     let mut points: Vec<DVec2> = Vec::new();
-    if seaward_reach.is_none() {
+    if reach[0].is_none() {
         points.push(DVec2::new(x0, top));
     }
-    points.extend(bed_between(&case.flume.profile, bed_start, x1));
-    points.push(DVec2::new(x1, top));
+    points.extend(bed_between(&case.flume.profile, x0 - from, x1 + to));
+    if reach[1].is_none() {
+        points.push(DVec2::new(x1, top));
+    }
     Outline::new(points)
 }
 
-/// Returns the boundary particles of bed, mound, walls and obstacles. The side walls extend beyond the seaward end of
-/// the domain by `seaward_reach` [m], the largest seaward displacement of the wavemaker.
-fn fixed_particles(
-    case: &Case,
-    outline: &Outline,
-    across: &Across,
-    seaward_reach: Option<f64>,
-) -> Vec<BoundaryParticle> {
+/// Returns the boundary particles of bed, mound, walls and obstacles. The side walls extend beyond the ends of the
+/// domain by `reach`; see [`reach_of`].
+fn fixed_particles(case: &Case, outline: &Outline, across: &Across, reach: [Option<f64>; 2]) -> Vec<BoundaryParticle> {
     let (domain, layers) = (&case.domain, case.numerics.boundary_layers as u32);
     let mut particles = outline_particles(outline, across, domain.dp, layers, 2.0 * case.numerics.h);
     let bed = |x: f64| case.flume.profile.z(x);
     let (top, at_rest) = (|_: f64| domain.top_z, |_: f64, _: f64| DVec2::ZERO);
     let mut sides = basin(case, across, &bed, &top, &at_rest);
-    sides.x = [domain.x[0] - seaward_reach.unwrap_or(0.0), domain.x[1]];
+    sides.x = [domain.x[0] - reach[0].unwrap_or(0.0), domain.x[1] + reach[1].unwrap_or(0.0)];
     particles.extend(side_wall_particles(&sides.side_section(domain.top_z), across, layers));
     for obstacle in &domain.obstacles {
         cover(&mut particles, obstacle);
@@ -241,19 +247,19 @@ fn fixed_particles(
     particles
 }
 
-/// Returns the boundary particles of the wavemaker, each with the index of its row.
-fn wavemaker_particles(case: &Case, across: &Across, wavemaker: &Wavemaker) -> Vec<(u32, BoundaryParticle)> {
+/// Returns the boundary particles of a moving end, each with the index of its row.
+fn end_particles(case: &Case, across: &Across, end: &MovingEnd) -> Vec<(u32, BoundaryParticle)> {
     let (dp, layers) = (case.domain.dp, case.numerics.boundary_layers as u32);
     let mut particles = Vec::new();
-    for (row, &z) in wavemaker.row_heights_m().iter().enumerate() {
+    for (row, &z) in end.wavemaker.row_heights_m().iter().enumerate() {
         for layer in 0..layers {
-            let behind = (f64::from(layer) + 0.5) * dp;
+            let inside = end.inwards * (f64::from(layer) + 0.5) * dp;
             for y in across.rows(layers) {
                 particles.push((
                     row as u32,
                     BoundaryParticle {
-                        position: DVec3::new(case.domain.x[0] - behind, y, z),
-                        to_surface: DVec3::new(behind, across.to_inside(y), 0.0),
+                        position: DVec3::new(end.wavemaker.rest_x_m() - inside, y, z),
+                        to_surface: DVec3::new(inside, across.to_inside(y), 0.0),
                         volume: dp * dp * across.spacing(),
                         allows_free_slip: true,
                     },

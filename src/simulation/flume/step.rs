@@ -7,7 +7,7 @@ use std::ops::{Deref, DerefMut};
 
 use glam::DVec3;
 
-use super::{Simulation, Units, failure, failure::Failure, wave::absorb::move_wavemaker};
+use super::{Simulation, Units, failure, failure::Failure, wave::ends::move_ends};
 use crate::{
     rigid::BodyState,
     sph::solver::{backend::DeviceError, power::Powers, sampling::Sampler},
@@ -69,12 +69,22 @@ impl Simulation {
         Ok(dt)
     }
 
-    /// Advances water, wavemaker and units to the half step.
+    /// Makes one time step of the water alone: all boundaries stay where they are, and no surface stops particles. The
+    /// benchmark compares its duration with the duration of [`Self::step`].
+    pub(crate) fn step_water_alone(&mut self) -> Result<(), Failure> {
+        let PreparedStep { simulation, dt, .. } = self.begin_step()?;
+        simulation.solver.predict(dt, &simulation.water, &mut simulation.boundary, &mut |_| ());
+        simulation.solver.rates();
+        simulation.solver.correct(dt, &mut simulation.water, &mut simulation.boundary);
+        Ok(())
+    }
+
+    /// Advances water, moving ends and units to the half step.
     fn predict(&mut self, dt: f64) {
-        let (wavemaker, absorbed, units) = (&self.wavemaker, &self.absorbed, &self.units);
+        let (ends, units) = (&self.ends, &self.units);
         let half_time = self.flume_time() + 0.5 * dt;
         self.solver.predict(dt, &self.water, &mut self.boundary, &mut |boundary| {
-            move_wavemaker(boundary, wavemaker.as_ref(), absorbed, half_time, 0.5 * dt);
+            move_ends(boundary, ends, half_time, 0.5 * dt);
             if let Some(units) = units {
                 units.states().iter().enumerate().for_each(|(k, s)| boundary.move_unit(k, &drifted(s, 0.5 * dt)));
             }
@@ -166,7 +176,7 @@ impl PreparedStep<'_> {
     }
 
     /// Makes the time step: predictor, rates at the half step, corrector, loads on the units, impermeable surfaces,
-    /// motion of the units.
+    /// motion of the units, flow through open ends.
     ///
     /// # Errors
     /// If a particle has left the domain or has an impossible density, if units overlap each other or the bed too much,
@@ -187,6 +197,7 @@ impl PreparedStep<'_> {
         simulation.time += dt;
         simulation.steps += 1;
         simulation.statistics.count_step(dt);
+        simulation.exchange_water();
         simulation.place_boundary();
         simulation.watch_water()
     }

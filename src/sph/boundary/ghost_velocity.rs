@@ -25,10 +25,10 @@ use crate::sph::terms::wall_slip::GhostVelocity;
 pub struct GhostVelocities {
     /// Weights a and b of each node, in the order of the sorted nodes.
     weights: Vec<[f32; 4]>,
-    /// Weighted sum of the water velocities around each node, in the same order.
+    /// Trust in the fitted gradient at each node, in the same order; negative if the node is dry.
+    trust: Vec<f64>,
+    /// Weighted sum of the water velocities around each node, in the same order; empty before the first computation.
     sums: Vec<VelocitySum>,
-    /// Velocity at the ghost node of each boundary particle; empty before the first computation.
-    of_particles: Vec<Option<GhostVelocity>>,
 }
 
 /// Weighted sum of the water velocities around a node [m/s].
@@ -48,40 +48,41 @@ impl GhostVelocities {
         let (bin_x, to_surface) = (grid.size.x as f32, &boundary.to_surface);
         let GhostNodes { sums, split, lists, bins, .. } = nodes;
         self.weights.resize(sums.len(), [0.0; 4]);
-        (&mut self.weights, sums, &bins.order)
-            .into_par_iter()
-            .with_min_len(MIN_CHUNK)
-            .for_each(|(weights, sums, &i)| *weights = velocity_weights_of(sums, parameters, to_surface[i as usize]));
+        self.trust.resize(sums.len(), 0.0);
+        (&mut self.weights, &mut self.trust, sums, &bins.order).into_par_iter().with_min_len(MIN_CHUNK).for_each(
+            |(weights, trust, sums, &i)| {
+                (*weights, *trust) = weights_and_trust(sums, parameters, to_surface[i as usize])
+            },
+        );
         self.sums.resize(sums.len(), VelocitySum::default());
         sum_around_nodes(parameters, bin_x, split, &self.weights, lists, records, &mut self.sums);
-        self.of_particles.resize(sums.len(), None);
-        for ((sums, velocity), &particle) in sums.iter().zip(&self.sums).zip(&bins.order) {
-            let trust = sums.trust(to_surface[particle as usize]);
-            let is_wet = f64::from(sums.value[0]) >= DRY_LIMIT;
-            let velocity = DVec3::from_array(velocity.0.map(f64::from));
-            self.of_particles[particle as usize] = is_wet.then_some(GhostVelocity { velocity, trust });
-        }
     }
 
     /// Returns the velocity at the ghost node of a boundary particle; `None` if the node is dry or no velocities are
     /// computed.
-    pub fn at_node_of(&self, particle: usize) -> Option<GhostVelocity> {
-        self.of_particles.get(particle).copied().flatten()
+    pub fn at_node_of(&self, particle: usize, nodes: &GhostNodes) -> Option<GhostVelocity> {
+        let place = *nodes.place_of.get(particle)? as usize;
+        let trust = *self.trust.get(place)?;
+        let velocity = DVec3::from_array(self.sums[place].0.map(f64::from));
+        (trust >= 0.0).then_some(GhostVelocity { velocity, trust })
     }
 
     /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
-        self.sums.capacity() * size_of::<VelocitySum>() + self.weights.capacity() * size_of::<[f32; 4]>()
+        self.sums.capacity() * size_of::<VelocitySum>()
+            + self.weights.capacity() * size_of::<[f32; 4]>()
+            + self.trust.capacity() * size_of::<f64>()
     }
 }
 
-/// Returns the weights a and b of the velocity sum, including the constant factors of W and g. For the trust 0, the sum
-/// is the weighted mean of the water velocities; for the trust 1, it is the solution of the four equations.
-/// `to_surface` [m] is half the vector from the boundary particle to the node.
-fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVec3) -> [f32; 4] {
+/// Returns the weights a and b of the velocity sum, including the constant factors of W and g, and the trust in the
+/// fitted gradient. For the trust 0, the sum is the weighted mean of the water velocities; for the trust 1, it is the
+/// solution of the four equations. For a dry node, the weights are 0, and the trust is negative. `to_surface` [m] is
+/// half the vector from the boundary particle to the node.
+fn weights_and_trust(sums: &NodeSums, parameters: &Parameters, to_surface: DVec3) -> ([f32; 4], f64) {
     let occupied = f64::from(sums.value[0]);
     if occupied < DRY_LIMIT {
-        return [0.0; 4];
+        return ([0.0; 4], -1.0);
     }
     let (mean, trust) = ([1.0 / occupied, 0.0, 0.0, 0.0], sums.trust(to_surface));
     let fitted = (trust > 0.0).then(|| sums.weights()).flatten().unwrap_or(mean);
@@ -89,10 +90,11 @@ fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVe
     // Constant factors of W and of g = -G h^2. The sum uses r_j in metres instead of units of h, so the factor of g is
     // divided by h.
     let (w, g) = (f64::from(kernel.scale()), -f64::from(kernel.gradient_scale()) * kernel.h);
-    std::array::from_fn(|k| {
+    let weights = std::array::from_fn(|k| {
         let weight = mean[k] + trust * (fitted[k] - mean[k]);
         (weight * if k == 0 { w } else { g }) as f32
-    })
+    });
+    (weights, trust)
 }
 
 impl NodeTerms<3, 4> for VelocitySum {

@@ -65,6 +65,8 @@ pub struct GhostNodes {
     pub(super) split: Vec<[f32; 4]>,
     pub(super) lists: NeighbourLists,
     pub(super) sums: Vec<NodeSums>,
+    /// Place of each boundary particle in the order of the nodes.
+    pub(super) place_of: Vec<u32>,
     /// Densities of the boundary particles in the order of the nodes [kg/m3].
     densities: Vec<f64>,
 }
@@ -95,7 +97,8 @@ impl GhostNodes {
     pub fn bytes(&self) -> usize {
         let points = (self.points.capacity() + self.sorted.capacity()) * size_of::<DVec3>();
         let sums = self.split.capacity() * size_of::<[f32; 4]>() + self.sums.capacity() * size_of::<NodeSums>();
-        points + sums + self.bins.bytes() + self.lists.bytes()
+        let places = self.place_of.capacity() * size_of::<u32>() + self.densities.capacity() * size_of::<f64>();
+        points + sums + places + self.bins.bytes() + self.lists.bytes()
     }
 
     /// Computes the density of each boundary particle from the water around its ghost node.
@@ -134,9 +137,15 @@ impl GhostNodes {
             .into_par_iter()
             .with_min_len(MIN_CHUNK)
             .for_each(|(density, sums, &i)| *density = sums.density_at(parameters, boundary.to_surface[i as usize]));
-        for (&density, &i) in self.densities.iter().zip(&self.bins.order) {
-            boundary.density[i as usize] = density;
+        self.place_of.resize(count, 0);
+        for (place, &i) in self.bins.order.iter().enumerate() {
+            self.place_of[i as usize] = place as u32;
         }
+        let densities = &self.densities;
+        (&mut boundary.density, &self.place_of)
+            .into_par_iter()
+            .with_min_len(MIN_CHUNK)
+            .for_each(|(density, &place)| *density = densities[place as usize]);
     }
 }
 

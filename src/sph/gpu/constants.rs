@@ -18,7 +18,6 @@ pub struct Constants {
     water: u32,
     size: [f32; 3],
     boundary: u32,
-    walls: u32,
     width: f32,
     h: f32,
     inv_2h: f32,
@@ -31,7 +30,7 @@ pub struct Constants {
     curvature: f32,
     gravity: f32,
     density_slope: f32,
-    padding: f32,
+    padding: [f32; 2],
     centroid_limits: [f32; 2],
     spread_limits: [f32; 2],
     least_determinant: f32,
@@ -55,10 +54,10 @@ pub struct StepConstants {
 }
 
 impl Constants {
-    /// Creates the constants. `particles` are the numbers of water particles, of all boundary particles, and of the
-    /// boundary particles of bed, walls and wavemaker. All particles must stay in the box `bounds` [m].
-    pub fn new(parameters: &Parameters, grid: &Grid, bounds: [DVec3; 2], particles: [usize; 3]) -> Self {
-        let [water, boundary, walls] = particles.map(|n| n as u32);
+    /// Creates the constants. `particles` are the numbers of water and boundary particles. All particles must stay in
+    /// the box `bounds` [m].
+    pub fn new(parameters: &Parameters, grid: &Grid, bounds: [DVec3; 2], particles: [usize; 2]) -> Self {
+        let [water, boundary] = particles.map(|n| n as u32);
         let Parameters { kernel, tait, gravity, .. } = *parameters;
         let alpha = if let Viscosity::Artificial { alpha } = parameters.viscosity { alpha as f32 } else { 0.0 };
         let [hydrostatic, curvature] = parameters.diffusion.hydrostatic();
@@ -68,7 +67,6 @@ impl Constants {
             water,
             size: grid.size.as_vec3().to_array(),
             boundary,
-            walls,
             width: grid.periodic_width.unwrap_or(0.0) as f32,
             h: kernel.h as f32,
             inv_2h: (0.5 / kernel.h) as f32,
@@ -81,7 +79,7 @@ impl Constants {
             curvature,
             gravity: gravity as f32,
             density_slope: (-tait.rho0 * gravity / tait.c0.powi(2)) as f32,
-            padding: 0.0,
+            padding: [0.0; 2],
             centroid_limits: CENTROID_LIMITS.map(|t| t as f32),
             spread_limits: SPREAD_LIMITS.map(|t| t as f32),
             least_determinant: MIN_DETERMINANT as f32,

@@ -128,7 +128,7 @@ impl GpuSolver {
 
     /// Copies the state of wavemaker and units, which the host moves, to the card.
     fn upload_moving(&mut self, boundary: &Boundary) {
-        let moving = boundary.piston().start..boundary.len();
+        let moving = boundary.pistons().start..boundary.len();
         let first = moving.start;
         let (state, surfaces) = CardState::of_boundary(&self.grid, self.parameters.tait.rho0, boundary, moving);
         let Some(loaded) = &mut self.loaded else { return };
@@ -257,7 +257,7 @@ impl Backend for GpuSolver {
 impl DeviceMemory for GpuSolver {
     fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError> {
         let particles = [water.len(), boundary.len(), boundary.walls().end];
-        let constants = Constants::new(&self.parameters, &self.grid, self.bounds, particles);
+        let constants = Constants::new(&self.parameters, &self.grid, self.bounds, [water.len(), boundary.len()]);
         let rho0 = self.parameters.tait.rho0;
         let state = CardState::of_water(&self.grid, rho0, water);
         let of_boundary = CardState::of_boundary(&self.grid, rho0, boundary, 0..boundary.len());

@@ -123,7 +123,7 @@ mod tests {
                 [x, y, z, 0]
             })
             .collect();
-        let constants = Constants::new(&parameters, &grid, [DVec3::ZERO, size], [points.len(), 0, 0]);
+        let constants = Constants::new(&parameters, &grid, [DVec3::ZERO, size], [points.len(), 0]);
         let (constants, cells) = (card.uniform("parameters", &constants), card.filled("cells", &cells).unwrap());
         let sort = Sort::new(&card, &constants, &cells, points.len(), grid.bins()).unwrap();
         let mut encoder = card.encoder();

@@ -15,7 +15,8 @@ const MIN_CHUNK: usize = 4096;
 pub struct CardState {
     /// Offset in the bin [m], and rho - rho0 [kg/m3].
     pub offset: Vec<[f32; 4]>,
-    /// Index of the bin along x, y and z, and identification number of the particle.
+    /// Index of the bin along x, y and z. The fourth number is the identification number of a water particle; for a
+    /// boundary particle, it is 0 for bed, walls and wavemaker, and 1 + k for unit k.
     pub cell: Vec<[i32; 4]>,
     /// Velocity [m/s] and mass [kg].
     pub motion: Vec<[f32; 4]>,
@@ -54,7 +55,8 @@ impl CardState {
     ) -> (Self, Vec<[f32; 4]>) {
         let particle = |i: usize| {
             let (excess, mass) = (boundary.density[i] - rho0, rho0 * boundary.volume[i]);
-            to_card(grid, boundary.position[i], boundary.velocity[i], excess, mass, 0)
+            let unit = i.checked_sub(boundary.walls().end).map_or(0, |k| 1 + boundary.unit_numbers()[k] as i32);
+            to_card(grid, boundary.position[i], boundary.velocity[i], excess, mass, unit)
         };
         let surface = |i: usize| boundary.to_surface[i].as_vec3().extend(0.0).to_array();
         let surfaces = particles.clone().into_par_iter().with_min_len(MIN_CHUNK).map(surface).collect();

@@ -4,6 +4,8 @@
 //! row follow each other in x. Therefore eight consecutive particles of a row form a compact cluster for the SIMD
 //! lanes.
 
+use std::ops::RangeInclusive;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -63,6 +65,32 @@ impl Grid {
     pub fn wrap(&self, point: DVec3) -> DVec3 {
         let Some(width) = self.periodic_width else { return point };
         DVec3 { y: point.y - width * ((point.y - self.low.y) / width).floor(), ..point }
+    }
+
+    /// Returns the shortest of the vectors between two points and their periodic images, from the vector between the
+    /// points [m].
+    pub fn nearest_image(&self, vector: DVec3) -> DVec3 {
+        match self.periodic_width {
+            Some(width) if 2.0 * vector.y.abs() > width => {
+                DVec3 { y: vector.y - width * (vector.y / width).round(), ..vector }
+            }
+            _ => vector,
+        }
+    }
+
+    /// Returns the range of bins along y that contain the coordinates from `low` to `high` [m]; each bin occurs at most
+    /// once. In a periodic domain, an index can be larger than the number of bins along y; the caller must take the
+    /// index modulo this number.
+    pub fn rows_across(&self, low: f64, high: f64) -> RangeInclusive<usize> {
+        if self.periodic_width.is_none() {
+            return self.along(1, low)..=self.along(1, high);
+        }
+        let ny = self.count[1];
+        let bin = |y: f64| ((y - self.low.y) / self.size.y).floor() as i64;
+        let first = bin(low);
+        let more = ((bin(high) - first) as usize).min(ny - 1);
+        let first = first.rem_euclid(ny as i64) as usize;
+        first..=first + more
     }
 
     /// Returns the index of the bin that contains the point. In a periodic domain, call [`Self::wrap`] on the point

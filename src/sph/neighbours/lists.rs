@@ -5,6 +5,8 @@
 //! Therefore a list reaches as far as the kernel support plus the distance by which two particles can approach each
 //! other in half a time step.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -155,6 +157,27 @@ impl NeighbourLists {
             instructions.dispatch(Build { chunk, grid, bins, targets, members, sources, reach });
         });
     }
+
+    /// Removes neighbours from the lists. `keeps` gets the index range of the targets of a cluster, and returns a
+    /// function that is true for the record index of each neighbour to keep.
+    pub fn retain<K: Fn(u32) -> bool>(&mut self, keeps: impl Fn(Range<usize>) -> K + Sync) {
+        self.chunks.par_iter_mut().enumerate().for_each(|(number, Chunk { clusters, list })| {
+            let (mut begin, mut kept) = (0, 0);
+            for cluster in clusters {
+                let first = number * CHUNK + cluster.first as usize;
+                let keeps = keeps(first..first + cluster.len as usize);
+                for entry in begin..cluster.list_end as usize {
+                    if keeps(list[entry]) {
+                        list[kept] = list[entry];
+                        kept += 1;
+                    }
+                }
+                begin = cluster.list_end as usize;
+                cluster.list_end = kept as u32;
+            }
+            list.truncate(kept);
+        });
+    }
 }
 
 /// Construction of the clusters and neighbour lists of one chunk.
@@ -163,7 +186,7 @@ struct Build<'a> {
     grid: &'a Grid,
     bins: &'a Bins,
     targets: &'a [DVec3],
-    members: std::ops::Range<usize>,
+    members: Range<usize>,
     sources: &'a [Sources<'a>],
     reach: f64,
 }
@@ -225,7 +248,7 @@ impl BoundingBox {
         let near = Near::<L>::new(self, reach, grid.periodic_width);
         for iz in self.bins(grid, 2, reach) {
             let gap_z = self.gap(grid, 2, iz, iz == 0, iz + 1 == nz);
-            for iy in self.rows_across(grid, reach) {
+            for iy in grid.rows_across(self.low.y - reach + grid.low.y, self.high.y + reach + grid.low.y) {
                 let is_open_edge = |at_edge: bool| at_edge && grid.periodic_width.is_none();
                 let gap_y = self.gap(grid, 1, iy, is_open_edge(iy == 0), is_open_edge(iy + 1 == ny));
                 let rest = reach * reach - gap_z * gap_z - gap_y * gap_y;
@@ -250,21 +273,6 @@ impl BoundingBox {
     fn bins(&self, grid: &Grid, axis: usize, reach: f64) -> std::ops::RangeInclusive<usize> {
         let from = grid.along(axis, self.low[axis] - reach + grid.low[axis]);
         from..=grid.along(axis, self.high[axis] + reach + grid.low[axis])
-    }
-
-    /// Returns the range of bins along y within `reach` [m] of the box; each bin occurs at most once. In a periodic
-    /// flume, an index can be larger than the number of bins along y; the caller must take the index modulo this
-    /// number.
-    fn rows_across(&self, grid: &Grid, reach: f64) -> std::ops::RangeInclusive<usize> {
-        if grid.periodic_width.is_none() {
-            return self.bins(grid, 1, reach);
-        }
-        let ny = grid.count[1];
-        let bin = |y: f64| (y / grid.size.y).floor() as i64;
-        let first = bin(self.low.y - reach);
-        let more = ((bin(self.high.y + reach) - first) as usize).min(ny - 1);
-        let first = first.rem_euclid(ny as i64) as usize;
-        first..=first + more
     }
 
     /// Returns the distance along an axis between the box and a bin [m]. If the bin is at an open end of the grid
@@ -314,7 +322,7 @@ impl<L: Lanes> Near<L> {
     /// Appends the indices of the points within reach to `list`. To avoid branches, each step writes as many indices as
     /// there are lanes, with the points within reach first. The next step overwrites the remaining indices.
     #[inline(always)]
-    fn append(&self, positions: &SortedPositions, members: std::ops::Range<usize>, offset: u32, list: &mut Vec<u32>) {
+    fn append(&self, positions: &SortedPositions, members: Range<usize>, offset: u32, list: &mut Vec<u32>) {
         let mut len = list.len();
         list.resize(len + members.len() + L::COUNT, 0);
         for first in members.clone().step_by(L::COUNT) {

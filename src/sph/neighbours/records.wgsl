@@ -61,5 +61,5 @@ fn of_boundary(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
     let i = order[place];
     let own = vec4<f32>(offset[i].xyz, boundary_density[i]);
     records[parameters.water + place] =
-        record(cell[i].xyz, own, motion[i], select(UNIT, WALL, i < parameters.walls));
+        record(cell[i].xyz, own, motion[i], WALL + f32(cell[i].w));
 }

@@ -7,9 +7,9 @@
 //! | [`rates`] | right-hand sides of equations 1 and 2 for all targets |
 //! | `pair_sums` | sums over the neighbours of a cluster, computed for all its members at once |
 //! | [`gradients`] | gradients of density and velocity, measures of the particle distribution |
-//! | `gap_pressure` | pressure on units through gaps without water particles |
+//! | [`gap_pressure`] | pressure on units through gaps without water particles |
 
-mod gap_pressure;
+pub mod gap_pressure;
 pub mod gradients;
 pub mod pair_loop;
 mod pair_sums;

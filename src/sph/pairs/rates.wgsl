@@ -20,8 +20,12 @@ struct Sums {
     fastest: f32,
 }
 
-// Adds the contribution of `b` to the sums of `a`. Solids act on a unit only by pressure (gap_pressure.rs).
+// Adds the contribution of `b` to the sums of `a`. Particles of the same unit do not act on each other, and other
+// solids act on a unit only by pressure (gap_pressure.rs).
 fn pair(sums: ptr<function, Sums>, a: Record, b: Record, r: vec3<f32>, r2: f32, closeness: f32) {
+    if a.state.w >= UNIT && a.state.w == b.state.w {
+        return;
+    }
     let g = gradient_shape(closeness);
     let gv = g * b.motion.w;
     let v_dot_r = dot(a.motion.xyz - b.motion.xyz, r);
@@ -30,7 +34,7 @@ fn pair(sums: ptr<function, Sums>, a: Record, b: Record, r: vec3<f32>, r2: f32, 
     // Artificial viscosity, equation 3.
     let approach = v_dot_r / (r2 + 0.01 * parameters.h * parameters.h);
     var viscous = (a.state.z + b.state.z) * (rho_a + rho_b) * (-0.25 * parameters.alpha * parameters.h * min(approach, 0.0));
-    if a.state.w == UNIT && b.state.w != WATER {
+    if a.state.w >= UNIT && b.state.w != WATER {
         viscous = 0.0;
     }
     (*sums).force += ((a.state.y + b.state.y + viscous) * gv) * r;

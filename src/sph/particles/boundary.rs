@@ -1,4 +1,4 @@
-//! Boundary particles of the fixed bed and walls, of the piston (wavemaker) and of the armour units.
+//! Boundary particles of the fixed bed and walls, of the pistons (wavemaker or open ends) and of the armour units.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::mechanics::{BodyState, Load};
 
-/// All boundary particles in a fixed order: bed and walls, then the piston, then one unit after the other.
+/// All boundary particles in a fixed order: bed and walls, then the pistons, then one unit after the other.
 #[derive(Debug, Clone, Default)]
 pub struct Boundary {
     /// Position [m].
@@ -24,17 +24,27 @@ pub struct Boundary {
     pub allows_free_slip: Vec<bool>,
     /// Density [kg/m3].
     pub density: Vec<f64>,
-    /// Index range of the piston particles.
-    piston: Range<usize>,
-    /// Row of each piston particle. A row is a level of the piston with its own displacement.
-    piston_row: Vec<u32>,
+    pistons: Vec<Piston>,
+    /// Index of the first unit particle.
+    first_unit: usize,
     /// Index range of the particles of each unit.
     units: Vec<Range<usize>>,
+    /// Number of the unit of each unit particle.
+    unit_numbers: Vec<u32>,
     /// Reference position [m]: for a piston particle its position at zero displacement, for a unit particle its
     /// position in the unit's axes.
     anchor: Vec<DVec3>,
     /// Reference value of `to_surface` [m]; for a unit particle, this vector is in the unit's axes.
     anchor_to_surface: Vec<DVec3>,
+}
+
+/// Particles that move in rows along x.
+#[derive(Debug, Clone)]
+struct Piston {
+    /// Index range of the particles.
+    particles: Range<usize>,
+    /// Row of each particle. A row is a level of the piston with its own displacement.
+    row: Vec<u32>,
 }
 
 /// Data from which one boundary particle is created.
@@ -51,26 +61,30 @@ pub struct BoundaryParticle {
 }
 
 impl Boundary {
-    /// Creates the `fixed` particles of bed and walls, the `piston` particles with their row numbers, and `units`
+    /// Creates the `fixed` particles of bed and walls, the particles of each piston with their row numbers, and `units`
     /// copies of the particles of one `unit`. All particles start with the density `rho0` [kg/m3]. The units lie at the
     /// origin until [`Self::move_unit`] moves them.
     pub fn new(
         fixed: &[BoundaryParticle],
-        piston: &[(u32, BoundaryParticle)],
+        pistons: &[Vec<(u32, BoundaryParticle)>],
         unit: &[BoundaryParticle],
         units: usize,
         rho0: f64,
     ) -> Self {
         let mut boundary = Self::default();
         fixed.iter().for_each(|p| boundary.push(p, rho0));
-        let first = boundary.len();
-        piston.iter().for_each(|(_, p)| boundary.push(p, rho0));
-        boundary.piston = first..boundary.len();
-        boundary.piston_row = piston.iter().map(|&(row, _)| row).collect();
-        for _ in 0..units {
+        for piston in pistons {
+            let first = boundary.len();
+            piston.iter().for_each(|(_, p)| boundary.push(p, rho0));
+            let row = piston.iter().map(|&(row, _)| row).collect();
+            boundary.pistons.push(Piston { particles: first..boundary.len(), row });
+        }
+        boundary.first_unit = boundary.len();
+        for number in 0..units {
             let first = boundary.len();
             unit.iter().for_each(|p| boundary.push(p, rho0));
             boundary.units.push(first..boundary.len());
+            boundary.unit_numbers.extend(unit.iter().map(|_| number as u32));
         }
         boundary.anchor = boundary.position.clone();
         boundary.anchor_to_surface = boundary.to_surface.clone();
@@ -98,17 +112,28 @@ impl Boundary {
 
     /// Returns the index range of the bed, wall and piston particles. The unit particles follow this range.
     pub fn walls(&self) -> Range<usize> {
-        0..self.piston.end
+        0..self.first_unit
     }
 
-    /// Returns the index range of the piston particles.
-    pub fn piston(&self) -> Range<usize> {
-        self.piston.clone()
+    /// Returns the index range of the particles of all pistons.
+    pub fn pistons(&self) -> Range<usize> {
+        self.pistons.first().map_or(self.first_unit, |piston| piston.particles.start)..self.first_unit
+    }
+
+    /// Returns the index of each particle of a piston, with its row.
+    pub fn rows_of(&self, piston: usize) -> impl Iterator<Item = (usize, usize)> {
+        let Piston { particles, row } = &self.pistons[piston];
+        particles.clone().zip(row.iter().map(|&row| row as usize))
     }
 
     /// Returns the index range of the particles of each unit.
     pub fn units(&self) -> &[Range<usize>] {
         &self.units
+    }
+
+    /// Returns the number of the unit of each unit particle.
+    pub fn unit_numbers(&self) -> &[u32] {
+        &self.unit_numbers
     }
 
     /// Returns position and surface vector of each particle of a unit, in the unit's axes [m]. These values are the
@@ -129,9 +154,10 @@ impl Boundary {
         self.units.iter().zip(centres).map(load).collect()
     }
 
-    /// Moves the piston particles. `rows` gives the displacement [m] and the velocity [m/s] of each piston row along x.
-    pub fn move_piston(&mut self, rows: &[[f64; 2]]) {
-        for (particle, &row) in self.piston.clone().zip(&self.piston_row) {
+    /// Moves the particles of a piston. `rows` gives the displacement [m] and the velocity [m/s] of each row along x.
+    pub fn move_piston(&mut self, piston: usize, rows: &[[f64; 2]]) {
+        let Piston { particles, row } = &self.pistons[piston];
+        for (particle, &row) in particles.clone().zip(row) {
             let [displacement, velocity] = rows[row as usize];
             self.position[particle] = self.anchor[particle] + DVec3::X * displacement;
             self.velocity[particle] = DVec3::X * velocity;

@@ -92,24 +92,14 @@ const ON_SURFACE: f64 = 1e-6;
 /// `locate` returns the surface point nearest to a given point and the distance between them [m], negative inside the
 /// solid.
 pub fn clear_solid(water: &mut Water, least: f64, locate: impl Fn(DVec3) -> (DVec3, f64)) {
-    let mut keep = vec![true; water.len()];
-    for (position, keep) in water.position.iter_mut().zip(&mut keep) {
+    water.retain(|position| locate(*position).1 > ON_SURFACE * least);
+    for position in &mut water.position {
         let (nearest, distance) = locate(*position);
-        *keep = distance > ON_SURFACE * least;
-        if *keep && distance < least {
+        if distance < least {
             *position = nearest + (*position - nearest) * (least / distance);
         }
     }
-    retain(&mut water.position, &keep);
-    retain(&mut water.velocity, &keep);
-    retain(&mut water.density, &keep);
-    retain(&mut water.mass, &keep);
     water.id = (0..water.len() as u32).collect();
-}
-
-fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
-    let mut flags = keep.iter();
-    values.retain(|_| *flags.next().expect("one flag per particle"));
 }
 
 #[cfg(test)]

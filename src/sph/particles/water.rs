@@ -23,6 +23,16 @@ impl Water {
         self.position.len()
     }
 
+    /// Keeps only the particles whose positions [m] satisfy a condition; their order remains.
+    pub fn retain(&mut self, stays: impl Fn(&DVec3) -> bool) {
+        let keep: Vec<bool> = self.position.iter().map(stays).collect();
+        retain(&mut self.position, &keep);
+        retain(&mut self.velocity, &keep);
+        retain(&mut self.density, &keep);
+        retain(&mut self.id, &keep);
+        retain(&mut self.mass, &keep);
+    }
+
     /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
         let vectors = (self.position.capacity() + self.velocity.capacity()) * size_of::<DVec3>();
@@ -34,4 +44,9 @@ impl Water {
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }
+}
+
+fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
+    let mut flags = keep.iter();
+    values.retain(|_| *flags.next().expect("one flag per particle"));
 }

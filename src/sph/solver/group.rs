@@ -1,11 +1,15 @@
 //! A group of particles of one kind, sorted into bins, with neighbour lists and rates.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::sph::lanes::InstructionSet;
 use crate::sph::neighbours::grid::{Bins, Grid};
 use crate::sph::neighbours::lists::{NeighbourLists, SortedPositions, Sources};
 use crate::sph::pairs::rate::Rate;
+
+/// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
+const MIN_CHUNK: usize = 4096;
 
 /// One of the three groups of particles: water, walls (with bed and wavemaker) or units.
 #[derive(Debug, Default)]
@@ -27,8 +31,9 @@ impl Group {
     /// Sorts the particles at `positions` [m] into bins.
     pub(super) fn sort(&mut self, grid: &Grid, positions: &[DVec3]) {
         self.bins.sort(grid, positions);
-        self.sorted.clear();
-        self.sorted.extend(self.bins.order.iter().map(|&i| grid.wrap(positions[i as usize])));
+        self.sorted.resize(positions.len(), DVec3::ZERO);
+        let sorted = self.sorted.par_iter_mut().zip(&self.bins.order).with_min_len(MIN_CHUNK);
+        sorted.for_each(|(sorted, &i)| *sorted = grid.wrap(positions[i as usize]));
         self.near.set(grid, &self.sorted);
         self.rates.resize(positions.len(), Rate::default());
     }

@@ -145,4 +145,22 @@ impl Sampler<'_> {
         }
         None
     }
+
+    /// Returns the depth of the water at x [m]: its volume per unit area of a flume of width `width` [m], with the
+    /// kernel as weight along x. This mean is as exact as the volumes of the particles, while a level from
+    /// [`Self::surface`] is on average a few hundredths of the particle spacing too high in disordered water.
+    pub fn depth(&self, x: f64, width: f64) -> f64 {
+        let (grid, kernel) = (self.grid, self.kernel);
+        let [nx, ny, nz] = grid.count;
+        let bins = grid.along(0, x - kernel.support())..=grid.along(0, x + kernel.support());
+        let rows = (0..ny * nz).map(|row| row * nx);
+        let members = rows.flat_map(|row| self.bins.start[row + bins.start()]..self.bins.start[row + bins.end() + 1]);
+        let volume = |b: u32| {
+            let b = b as usize;
+            let weight: f64 = kernel.shape(kernel.closeness((self.water.position[b].x - x).abs()));
+            weight * self.water.mass[b] / self.water.density[b]
+        };
+        // The integral of the kernel without its constant factor, (1 - q/2)^4 (2q + 1), over a line is 4 h / 3.
+        members.map(volume).sum::<f64>() / (4.0 / 3.0 * kernel.h * width)
+    }
 }

@@ -21,10 +21,9 @@ use crate::sph::{
     lanes::InstructionSet,
     neighbours::{
         grid::{Bins, Grid},
-        lists::NeighbourLists,
         records::{Record, record},
     },
-    pairs::{gradients::Gradients, pair_loop::PairLoop, rate::Rate},
+    pairs::{gap_pressure::Gaps, gradients::Gradients, pair_loop::PairLoop, rate::Rate},
     parameters::{BoundaryCondition, Parameters},
     particles::{boundary::Boundary, water::Water},
     terms::{density_diffusion::Diffusion, viscosity::Viscosity, wall_slip::WallSlip},
@@ -44,8 +43,7 @@ pub struct Solver {
     water: Group,
     walls: Group,
     units: Group,
-    /// Neighbour lists of the units for the gap pressure; the neighbours are particles of bed, walls and units.
-    gap_lists: NeighbourLists,
+    gaps: Gaps,
     records: Vec<Record>,
     ghosts: GhostNodes,
     /// Water velocities at the ghost nodes; computed only if the wall slip condition needs them.
@@ -65,7 +63,6 @@ impl Solver {
 
     /// Creates a solver with a given instruction set.
     pub fn with_instructions(instructions: InstructionSet, parameters: Parameters, low: DVec3, high: DVec3) -> Self {
-        let lists = || NeighbourLists::new(instructions);
         let group = || Group::new(instructions);
         let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
         let pairs = PairLoop::new(parameters, grid.size.x);
@@ -76,7 +73,7 @@ impl Solver {
             water: group(),
             walls: group(),
             units: group(),
-            gap_lists: lists(),
+            gaps: Gaps::new(instructions),
             records: Vec::new(),
             ghosts: GhostNodes::new(instructions),
             ghost_velocities: GhostVelocities::default(),
@@ -110,10 +107,11 @@ impl Solver {
         lists.build(grid, &w.bins, &w.sorted, &everything, reach);
         let only_water = [Group::sources(w)];
         units.lists.build(grid, &units.bins, &units.sorted, &only_water, reach);
-        if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
+        if self.parameters.has_gap_pressure() {
             let solids = [walls.sources(), units.sources()];
-            self.gap_lists.build(grid, &units.bins, &units.sorted, &solids, reach);
-        } else {
+            self.gaps.build(grid, &units.bins, &units.sorted, solids, boundary.unit_numbers(), reach);
+        }
+        if self.parameters.boundary == BoundaryCondition::Dynamic {
             walls.lists.build(grid, &walls.bins, &walls.sorted, &only_water, reach);
         }
         w.lists = lists;
@@ -158,21 +156,21 @@ impl Solver {
     /// Fills the records of the boundary particles. `density` lists their densities at the start of a time step or at
     /// the half step [kg/m3].
     fn fill_boundary_records(&mut self, boundary: &Boundary, density: &[f64]) {
-        let (grid, parameters, ghost_velocities) = (&self.grid, &self.parameters, &self.ghost_velocities);
-        let (of_walls, of_units) = self.records[self.walls.first_record..].split_at_mut(boundary.walls().len());
+        let Self { grid, parameters, ghosts, ghost_velocities, records, walls, units, .. } = self;
+        let (of_walls, of_units) = records[walls.first_record..].split_at_mut(boundary.walls().len());
         let diffuses = parameters.boundary == BoundaryCondition::ModifiedDynamic;
         let fill = |out: &mut [Record], order: &[u32], offset: usize| {
             out.par_iter_mut().zip(order).with_min_len(MIN_CHUNK).for_each(|(out, &i)| {
                 let i = offset + i as usize;
                 let mass = parameters.tait.rho0 * boundary.volume[i];
-                let ghost = ghost_velocities.at_node_of(i);
+                let ghost = ghost_velocities.at_node_of(i, ghosts);
                 let (wall, free_slip) = (boundary.velocity[i], boundary.allows_free_slip[i]);
                 let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], free_slip);
                 *out = record(grid, parameters, boundary.position[i], velocity, density[i], mass, diffuses);
             });
         };
-        fill(of_walls, &self.walls.bins.order, 0);
-        fill(of_units, &self.units.bins.order, boundary.walls().len());
+        fill(of_walls, &walls.bins.order, 0);
+        fill(of_units, &units.bins.order, boundary.walls().len());
     }
 
     /// Under mDBC, computes the boundary densities from the ghost nodes. Under DBC, the densities follow from the
@@ -190,7 +188,7 @@ impl Solver {
 
     /// Computes the rates of water, units and, under DBC, walls from the current records.
     pub fn rates(&mut self) {
-        let Self { pairs, records, water, walls, units, parameters, gap_lists, gradients, .. } = self;
+        let Self { pairs, records, water, walls, units, parameters, gaps, gradients, .. } = self;
         if Gradients::are_needed(parameters) {
             gradients.compute(pairs, &water.lists, records, water.rates.len());
         }
@@ -199,8 +197,9 @@ impl Solver {
         pairs.rates(&units.lists, records, neighbour_data, units.first_record, &mut units.rates);
         if parameters.boundary == BoundaryCondition::Dynamic {
             pairs.rates(&walls.lists, records, neighbour_data, walls.first_record, &mut walls.rates);
-        } else if parameters.gap_pressure {
-            pairs.add_gap_pressure(gap_lists, records, units.first_record, &mut units.rates);
+        }
+        if parameters.has_gap_pressure() {
+            gaps.add_pressure(pairs, records, &mut units.rates);
         }
     }
 
@@ -341,7 +340,7 @@ impl Solver {
         let groups: usize = [&self.water, &self.walls, &self.units].map(Group::bytes).iter().sum();
         let records = self.records.capacity() * size_of::<Record>();
         groups
-            + self.gap_lists.bytes()
+            + self.gaps.bytes()
             + records
             + self.ghosts.bytes()
             + self.ghost_velocities.bytes()

@@ -49,6 +49,13 @@ pub struct AbsorptionState {
 /// transport. The return velocity is at most 1 / (2 pi 10) = 1.6 % of the absorbing velocity, and out of phase with it.
 pub(super) const RETURN_PERIODS: f64 = 10.0;
 
+impl AbsorptionState {
+    /// Returns the smoothed excess of the measured elevation over the generated wave [m].
+    pub fn excess_m(&self) -> f64 {
+        self.excess_m
+    }
+}
+
 impl Absorption {
     /// Creates the parameters of a full-depth piston: for waves of period `period_s`, or for long waves if it is
     /// `None`.

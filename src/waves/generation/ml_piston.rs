@@ -86,6 +86,21 @@ impl MlPiston {
         Self::from_velocities(x0_m, row_heights_m.to_vec(), start_s, interval_s, velocities)
     }
 
+    /// Creates rows at levels z [m] that move with the velocities of a flume run at the fixed position `x_m`, from start
+    /// to end [s]. Velocities are stored at knots, `interval_s` apart.
+    pub fn at_fixed_place(
+        record: &FlumeRecord,
+        x_m: f64,
+        row_heights_m: &[f64],
+        [start_s, end_s]: [f64; 2],
+        interval_s: f64,
+    ) -> Self {
+        let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
+        let velocity = |z: f64, knot: usize| record.velocity(x_m, z, start_s + knot as f64 * interval_s).0;
+        let velocities = row_heights_m.iter().map(|&z| (0..knots).map(|knot| velocity(z, knot)).collect()).collect();
+        Self::from_velocities(x_m, row_heights_m.to_vec(), start_s, interval_s, velocities)
+    }
+
     /// Creates rows that move with the velocities of a file from start to end [s], in the time of the file.
     ///
     /// The file has the velocities at one position x. With a celerity c [m/s], a row displaced by X has the velocity of

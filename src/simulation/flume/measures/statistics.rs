@@ -38,6 +38,8 @@ pub struct Statistics {
     pub balance: Balance,
     /// Volume [m3] and number of particles of the water at the first row of `diagnostics.csv`.
     pub water_start: Option<(f64, u64)>,
+    /// Number of water particles that open ends have released and taken.
+    pub exchanged: [u64; 2],
     /// Largest Mach number: speed of the water divided by its speed of sound c0 [-].
     pub largest_mach: f64,
     /// Largest Mach number [-], lowest and highest density [kg/m3] since the last row of `diagnostics.csv`.

@@ -14,6 +14,7 @@ use crate::simulation::flume::{
     Simulation,
     measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts},
     setup::SetupError,
+    wave::ends::EndState,
 };
 use crate::{
     case::{Case, CaseIdentity},
@@ -23,11 +24,10 @@ use crate::{
     },
     rigid::{Load, RigidSnapshot},
     sph::{device::Device, particles::water::Water},
-    waves::generation::absorption::AbsorptionState,
 };
 
 /// Version of the file layout; increased when the layout changes.
-const VERSION: u32 = 15;
+const VERSION: u32 = 16;
 
 /// The state of a run without the arrays.
 #[derive(Serialize, Deserialize)]
@@ -45,7 +45,8 @@ struct Scalars {
     rigid: Option<RigidSnapshot>,
     fluid_loads: Vec<Load>,
     mean_loads: MeanLoads,
-    absorbed: AbsorptionState,
+    ends: Vec<EndState>,
+    next_id: u32,
 }
 
 /// A copy of the state of a run, which can be written while the run continues.
@@ -78,7 +79,8 @@ impl Checkpoint {
             rigid: units.map(|units| units.world.snapshot()),
             fluid_loads: units.map_or_else(Vec::new, |units| units.fluid_loads.clone()),
             mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
-            absorbed: simulation.absorbed,
+            ends: simulation.ends.iter().map(|end| end.state.clone()).collect(),
+            next_id: simulation.next_id,
         };
         Self {
             scalars,
@@ -169,7 +171,16 @@ impl Checkpoint {
                 scalars.device
             ));
         }
-        simulation.absorbed = scalars.absorbed;
+        if scalars.ends.len() != simulation.ends.len() {
+            return Err(OutputError::content(&path, "does not match the ends of the domain".to_owned()));
+        }
+        for (end, state) in simulation.ends.iter_mut().zip(scalars.ends) {
+            if end.state.released.len() != state.released.len() {
+                return Err(OutputError::content(&path, "does not match the rows of the open ends".to_owned()));
+            }
+            end.state = state;
+        }
+        simulation.next_id = scalars.next_id;
         if let (Some(units), Some(snapshot)) = (&mut simulation.units, &scalars.rigid) {
             units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;
             units.fluid_loads = scalars.fluid_loads;

@@ -286,15 +286,16 @@ fn gauge_columns(case: &Case) -> Vec<String> {
 /// smoothing length in front of it.
 fn gauge_row(simulation: &Simulation) -> Vec<f64> {
     let (case, sampler) = (&simulation.case, simulation.sampler());
-    let wet_from = simulation.wavemaker_front().map_or(f64::NEG_INFINITY, |front| front + case.numerics.h);
+    let [from, to] = simulation.between_moving_ends();
+    let is_between = |x: f64| (from + case.numerics.h..to - case.numerics.h).contains(&x);
     let mut row = vec![simulation.flume_time()];
     for gauge in wet_gauges(case) {
         let at = simulation.gauge_position(gauge);
-        let sample = || sampler.sample(at).filter(|_| at.x > wet_from);
+        let sample = || sampler.sample(at).filter(|_| is_between(at.x));
         match gauge.quantity {
             Quantity::Elevation => {
                 let bed = case.flume.profile.z(at.x);
-                let level = sampler.surface(at.truncate(), bed).filter(|_| at.x > wet_from);
+                let level = sampler.surface(at.truncate(), bed).filter(|_| is_between(at.x));
                 row.push(level.map_or(f64::NAN, |z| z - case.flume.still_water_level));
             }
             Quantity::Pressure => row.push(sample().map_or(f64::NAN, |s| s.pressure)),

@@ -68,8 +68,8 @@ fn particle_counts(simulation: &Simulation) -> ParticleCounts {
     let boundary = &simulation.boundary;
     ParticleCounts {
         water: simulation.water.len() as u64,
-        bed: boundary.piston().start as u64,
-        wavemaker: boundary.piston().len() as u64,
+        bed: boundary.pistons().start as u64,
+        wavemaker: boundary.pistons().len() as u64,
         units: (boundary.len() - boundary.walls().end) as u64,
     }
 }
@@ -80,7 +80,9 @@ fn wave(case: &Case) -> Option<WaveSummary> {
         (Wave::Solitary(wave), _) if wave.theory == PistonTheory::Boussinesq => ("solitary", "boussinesq"),
         (Wave::Solitary(_), _) => ("solitary", "rayleigh"),
         (Wave::SolitaryInflow(_), _) => ("solitary", "third_order"),
-        (Wave::Regular { .. }, Wavemaker::MlPiston { .. }) => ("regular", "stream_function"),
+        (Wave::Regular { .. }, Wavemaker::MlPiston { .. } | Wavemaker::OpenEnds { .. }) => {
+            ("regular", "stream_function")
+        }
         (Wave::Regular { .. }, Wavemaker::Piston { .. }) => ("regular", "madsen"),
         (Wave::Regular { .. }, Wavemaker::Flap { .. }) => ("regular", "biesel"),
         (Wave::Irregular { .. }, _) => ("irregular", "jonswap"),

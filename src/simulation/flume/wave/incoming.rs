@@ -1,5 +1,6 @@
 //! The wave of a case: run of the flume model, start of the particles, and wavemaker in the particle domain.
 
+use super::ends::MovingEnd;
 use crate::{
     case::{self, Case, Quantity, Start, Wave},
     waves::{
@@ -42,7 +43,7 @@ const DRIFT_PERIODS: f64 = 4.0;
 /// # Errors
 /// If the flume model fails.
 pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
-    if !case.wavemaker.is_ml_piston() {
+    if !case.wavemaker.follows_flume_model() {
         return Ok(None);
     }
     let Some(wave) = source(&case.wave)? else { return Ok(None) };
@@ -143,12 +144,36 @@ pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
     let interval = interval(&case.wave);
     let end = (start + case.stop.duration).max(start + interval);
     let drawn_back = case.wave.period().map(|period| DRIFT_PERIODS * period);
-    let rows = case.domain.wavemaker_rows(&case.flume);
+    let rows = case.domain.wavemaker_rows(&case.flume, case.domain.x[0]);
     MlPiston::from_record(record, case.domain.x[0], &rows, [start, end], interval, drawn_back)
 }
 
+/// Returns the moving ends of the particle domain: none, the wavemaker, or two open ends.
+pub(crate) fn ends(case: &Case, flume: Option<&FlumeRecord>, start: f64) -> Vec<MovingEnd> {
+    match (case.wavemaker, flume) {
+        (case::Wavemaker::OpenEnds { gauge }, Some(record)) => {
+            let open = |x: f64, inwards: f64| {
+                MovingEnd::open(Wavemaker::MlPiston(open_end(case, record, start, x, gauge)), inwards, case.domain.dp)
+            };
+            vec![open(case.domain.x[0], 1.0), open(case.domain.x[1], -1.0)]
+        }
+        _ => wavemaker(case, flume, start).map(MovingEnd::wavemaker).into_iter().collect(),
+    }
+}
+
+/// Returns the rows of an open end at x [m]. They follow the flume model, and a gauge at the distance `gauge` [m] lets
+/// other waves leave.
+fn open_end(case: &Case, record: &FlumeRecord, start: f64, x: f64, gauge: f64) -> MlPiston {
+    let interval = interval(&case.wave);
+    let end = (start + case.stop.duration).max(start + interval);
+    let rows = case.domain.wavemaker_rows(&case.flume, x);
+    let (depth, gravity) = (case.flume.still_depth(x), case.fluid.gravity);
+    let absorption = Absorption::for_full_depth_piston(gauge, depth, None, gravity, f64::INFINITY);
+    MlPiston::at_fixed_place(record, x, &rows, [start, end], interval).with_absorption(absorption)
+}
+
 /// Returns the wavemaker of the particle domain; `None` if the case has no wave.
-pub(crate) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) -> Option<Wavemaker> {
+fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) -> Option<Wavemaker> {
     if let Some(record) = flume {
         let piston = ml_piston(case, record, start);
         return Some(Wavemaker::MlPiston(match case.wavemaker.absorption_gauge() {
@@ -185,7 +210,7 @@ pub(crate) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) ->
         Wave::None | Wave::SolitaryInflow(_) | Wave::Irregular { .. } => return None,
     };
     let shape = case.wavemaker.shape(bed);
-    let rows = case.domain.wavemaker_rows(&case.flume);
+    let rows = case.domain.wavemaker_rows(&case.flume, place);
     let paddle = Paddle::new(place, rows, [bed, depth], shape, motion);
     Some(Wavemaker::Paddle(match case.wavemaker {
         case::Wavemaker::Piston { absorption_gauge: Some(gauge) } => paddle.with_absorption(gauge),

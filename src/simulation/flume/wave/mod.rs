@@ -1,5 +1,5 @@
-//! The wave in the particle domain: its source, active absorption, and zones at the ends of the domain.
+//! The wave in the particle domain: its source, wavemaker and open ends, and zones at the ends of the domain.
 
-pub(crate) mod absorb;
+pub mod ends;
 pub mod incoming;
 mod zones;
