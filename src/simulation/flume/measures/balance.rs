@@ -1,4 +1,5 @@
-//! Energy balance of the water: energy that it receives from boundaries, viscosity, density diffusion and zones.
+//! Energy balance of the water: energy that it receives from boundaries, viscosity, density diffusion, zones and open
+//! ends.
 //!
 //! The powers [W] are evaluated at each row of `energy.csv` and integrated by the trapezoidal rule. The sum differs
 //! from the change of the water's energy for two reasons: time integration and trapezoidal rule have errors, and
@@ -17,7 +18,7 @@ pub struct Balance {
     pub viscosity: f64,
     /// From density diffusion.
     pub diffusion: f64,
-    /// From damping and relaxation zones, added in every time step.
+    /// From damping and relaxation zones, and with the water that flows through open ends, added in every time step.
     pub zones: f64,
     /// Time [s] of the last row, and the powers [W] of boundaries, viscosity and diffusion at that time.
     last: Option<(f64, [f64; 3])>,

@@ -25,15 +25,27 @@ impl Energies {
 }
 
 impl Simulation {
+    /// Returns the kinetic, potential and internal energy of a water particle [J].
+    pub(in crate::simulation::flume) fn energy_of(&self, particle: usize) -> [f64; 3] {
+        let (water, parameters) = (&self.water, self.solver().parameters());
+        [
+            0.5 * water.velocity[particle].length_squared(),
+            parameters.gravity * water.position[particle].z,
+            parameters.tait.internal_energy(water.density[particle]),
+        ]
+        .map(|per_mass| water.mass[particle] * per_mass)
+    }
+
     /// Returns the energy of water and units.
     pub fn energy(&self) -> Energies {
-        let (water, parameters) = (&self.water, self.solver().parameters());
+        let parameters = self.solver().parameters();
         let mut energy =
             Energies { kinetic: 0.0, potential: 0.0, internal: 0.0, units_kinetic: 0.0, units_potential: 0.0 };
-        for i in 0..water.len() {
-            energy.kinetic += 0.5 * water.mass[i] * water.velocity[i].length_squared();
-            energy.potential += water.mass[i] * parameters.gravity * water.position[i].z;
-            energy.internal += water.mass[i] * parameters.tait.internal_energy(water.density[i]);
+        for particle in 0..self.water.len() {
+            let [kinetic, potential, internal] = self.energy_of(particle);
+            energy.kinetic += kinetic;
+            energy.potential += potential;
+            energy.internal += internal;
         }
         if let (Some(units), Some(of_case)) = (&self.units, &self.case.units) {
             // In two dimensions, the water is as thick as one slice of a unit. Therefore use the mass of one slice.

@@ -175,25 +175,25 @@ impl Simulation {
 
     /// Turns the foremost particles of a row into water, with the position x [m] and the velocity along x [m/s].
     fn release(&mut self, piston: usize, row: usize, x: f64, velocity: f64) {
-        let Self { boundary, water, case, flume, .. } = self;
-        let (width, dp) = (case.domain.width, case.domain.dp);
-        let t = self.start + self.time;
-        for (particle, _) in boundary.rows_of(piston).filter(|(_, of)| *of == row) {
-            let DVec3 { y, z, .. } = boundary.position[particle];
-            // The foremost layer is the nearest to the surface of the row; particles behind the side walls stay there.
-            let is_foremost = boundary.to_surface[particle].x.abs() < dp;
-            if !is_foremost || !(0.0..width).contains(&y) {
-                continue;
-            }
-            let rise = flume.as_ref().map_or(0.0, |flume| flume.velocity(x, z, t).1);
-            let density = boundary.density[particle];
-            water.position.push(DVec3::new(x, y, z));
-            water.velocity.push(DVec3::new(velocity, 0.0, rise));
-            water.density.push(density);
-            water.mass.push(density * boundary.volume[particle]);
-            water.id.push(self.next_id);
+        let (width, dp, t) = (self.case.domain.width, self.case.domain.dp, self.flume_time());
+        // The foremost layer is the nearest to the surface of the row; particles behind the side walls stay there.
+        let is_foremost = |particle: usize| {
+            let y = self.boundary.position[particle].y;
+            self.boundary.to_surface[particle].x.abs() < dp && (0.0..width).contains(&y)
+        };
+        let of_row = self.boundary.rows_of(piston).filter(|(_, of)| *of == row).map(|(particle, _)| particle);
+        for particle in of_row.filter(|&particle| is_foremost(particle)).collect::<Vec<_>>() {
+            let DVec3 { y, z, .. } = self.boundary.position[particle];
+            let (density, volume) = (self.boundary.density[particle], self.boundary.volume[particle]);
+            let rise = self.flume.as_ref().map_or(0.0, |flume| flume.velocity(x, z, t).1);
+            self.water.position.push(DVec3::new(x, y, z));
+            self.water.velocity.push(DVec3::new(velocity, 0.0, rise));
+            self.water.density.push(density);
+            self.water.mass.push(density * volume);
+            self.water.id.push(self.next_id);
             self.next_id += 1;
             self.statistics.exchanged[0] += 1;
+            self.statistics.balance.zones += self.energy_of(self.water.len() - 1).iter().sum::<f64>();
         }
     }
 
@@ -206,8 +206,10 @@ impl Simulation {
             let row = ((position.z - heights[0]) / dp).round().clamp(0.0, (heights.len() - 1) as f64) as usize;
             end.inwards * (position.x - place) >= limits[row]
         };
-        let before = self.water.len();
+        let leaving: Vec<usize> = (0..self.water.len()).filter(|&i| !stays(&self.water.position[i])).collect();
+        let energy: f64 = leaving.iter().flat_map(|&particle| self.energy_of(particle)).sum();
+        self.statistics.balance.zones -= energy;
+        self.statistics.exchanged[1] += leaving.len() as u64;
         self.water.retain(stays);
-        self.statistics.exchanged[1] += (before - self.water.len()) as u64;
     }
 }
