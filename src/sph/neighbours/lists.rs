@@ -42,7 +42,15 @@ pub struct Cluster {
 #[derive(Debug, Default)]
 pub struct Chunk {
     clusters: Vec<Cluster>,
-    list: Vec<u32>,
+    list: List,
+}
+
+/// Neighbours of consecutive clusters. The entries behind the first `len` are free memory, which keeps its values, so
+/// that the memory is not cleared in every time step.
+#[derive(Debug, Default)]
+struct List {
+    entries: Vec<u32>,
+    len: usize,
 }
 
 impl Chunk {
@@ -50,7 +58,7 @@ impl Chunk {
     pub fn clusters(&self) -> impl Iterator<Item = (&Cluster, &[u32])> {
         let mut begin = 0;
         self.clusters.iter().map(move |cluster| {
-            let neighbours = &self.list[begin..cluster.list_end as usize];
+            let neighbours = &self.list.entries[begin..cluster.list_end as usize];
             begin = cluster.list_end as usize;
             (cluster, neighbours)
         })
@@ -132,7 +140,7 @@ impl NeighbourLists {
 
     /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
-        self.chunks.iter().map(|c| c.list.capacity() * 4 + c.clusters.capacity() * size_of::<Cluster>()).sum()
+        self.chunks.iter().map(|c| c.list.entries.capacity() * 4 + c.clusters.capacity() * size_of::<Cluster>()).sum()
     }
 
     /// Returns the mean number of pairs that are computed per target, including pairs in unused lanes and pairs outside
@@ -167,15 +175,15 @@ impl NeighbourLists {
                 let first = number * CHUNK + cluster.first as usize;
                 let keeps = keeps(first..first + cluster.len as usize);
                 for entry in begin..cluster.list_end as usize {
-                    if keeps(list[entry]) {
-                        list[kept] = list[entry];
+                    if keeps(list.entries[entry]) {
+                        list.entries[kept] = list.entries[entry];
                         kept += 1;
                     }
                 }
                 begin = cluster.list_end as usize;
                 cluster.list_end = kept as u32;
             }
-            list.truncate(kept);
+            list.len = kept;
         });
     }
 }
@@ -198,7 +206,7 @@ impl WithLanes for Build<'_> {
     fn run<L: Lanes>(self) {
         let Self { chunk, grid, bins, targets, members, sources, reach } = self;
         chunk.clusters.clear();
-        chunk.list.clear();
+        chunk.list.len = 0;
         let mut first = members.start;
         while first < members.end {
             let end = cluster_end(grid, &bins.bin_at[..members.end], first, L::COUNT);
@@ -210,7 +218,7 @@ impl WithLanes for Build<'_> {
                 first: (first - members.start) as u32,
                 len: (end - first) as u32,
                 crosses_sides: cluster_box.crosses_sides(grid, reach),
-                list_end: chunk.list.len() as u32,
+                list_end: chunk.list.len as u32,
             });
             first = end;
         }
@@ -243,7 +251,7 @@ impl BoundingBox {
 
     /// Appends to `list` the record indices of the particles of `source` within `reach` [m] of the box.
     #[inline(always)]
-    fn list_near<L: Lanes>(&self, grid: &Grid, source: &Sources, reach: f64, list: &mut Vec<u32>) {
+    fn list_near<L: Lanes>(&self, grid: &Grid, source: &Sources, reach: f64, list: &mut List) {
         let [nx, ny, nz] = grid.count;
         let near = Near::<L>::new(self, reach, grid.periodic_width);
         for iz in self.bins(grid, 2, reach) {
@@ -322,9 +330,12 @@ impl<L: Lanes> Near<L> {
     /// Appends the indices of the points within reach to `list`. To avoid branches, each step writes as many indices as
     /// there are lanes, with the points within reach first. The next step overwrites the remaining indices.
     #[inline(always)]
-    fn append(&self, positions: &SortedPositions, members: Range<usize>, offset: u32, list: &mut Vec<u32>) {
-        let mut len = list.len();
-        list.resize(len + members.len() + L::COUNT, 0);
+    fn append(&self, positions: &SortedPositions, members: Range<usize>, offset: u32, list: &mut List) {
+        let most = list.len + members.len() + L::COUNT;
+        if list.entries.len() < most {
+            list.entries.resize(most, 0);
+            list.entries.resize(list.entries.capacity(), 0);
+        }
         for first in members.clone().step_by(L::COUNT) {
             let x = positions.load::<L>(0, first);
             let mut y = positions.load::<L>(1, first);
@@ -335,10 +346,9 @@ impl<L: Lanes> Near<L> {
             let distance2 = dx.mul_add(dx, dy.mul_add(dy, dz * dz));
             let present = (1_u32 << (members.end - first).min(L::COUNT)) - 1;
             let near = distance2.at_most(self.reach2) & present;
-            L::list_set_bits(near, offset + first as u32, &mut list[len..]);
-            len += near.count_ones() as usize;
+            L::list_set_bits(near, offset + first as u32, &mut list.entries[list.len..]);
+            list.len += near.count_ones() as usize;
         }
-        list.truncate(len);
     }
 
     /// Returns the distance of points from the box along an axis [m]; zero inside.
