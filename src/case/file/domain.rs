@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct DomainFile {
     /// x of the seaward and of the shoreward end [m]. The wavemaker stands at the seaward end, or a wall if the case
-    /// has no wave. A wall stands at the shoreward end.
+    /// has no wave. A wall stands at the shoreward end. With the wavemaker `open_ends`, both ends are open.
     pub x_m: [f64; 2],
     /// Width of the domain across the flume [m]. Leave this key out in two dimensions.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -92,13 +92,15 @@ const ON_SURFACE: f64 = 1e-6;
 /// `locate` returns the surface point nearest to a given point and the distance between them [m], negative inside the
 /// solid.
 pub fn clear_solid(water: &mut Water, least: f64, locate: impl Fn(DVec3) -> (DVec3, f64)) {
-    water.retain(|position| locate(*position).1 > ON_SURFACE * least);
-    for position in &mut water.position {
+    let mut keep = vec![true; water.len()];
+    for (position, keep) in water.position.iter_mut().zip(&mut keep) {
         let (nearest, distance) = locate(*position);
-        if distance < least {
+        *keep = distance > ON_SURFACE * least;
+        if *keep && distance < least {
             *position = nearest + (*position - nearest) * (least / distance);
         }
     }
+    water.retain(&keep);
     water.id = (0..water.len() as u32).collect();
 }
 

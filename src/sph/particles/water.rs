@@ -23,14 +23,13 @@ impl Water {
         self.position.len()
     }
 
-    /// Keeps only the particles whose positions [m] satisfy a condition; their order remains.
-    pub fn retain(&mut self, stays: impl Fn(&DVec3) -> bool) {
-        let keep: Vec<bool> = self.position.iter().map(stays).collect();
-        retain(&mut self.position, &keep);
-        retain(&mut self.velocity, &keep);
-        retain(&mut self.density, &keep);
-        retain(&mut self.id, &keep);
-        retain(&mut self.mass, &keep);
+    /// Keeps only the particles for which `keep` is true; their order remains.
+    pub fn retain(&mut self, keep: &[bool]) {
+        retain(&mut self.position, keep);
+        retain(&mut self.velocity, keep);
+        retain(&mut self.density, keep);
+        retain(&mut self.id, keep);
+        retain(&mut self.mass, keep);
     }
 
     /// Returns the memory in use [bytes].

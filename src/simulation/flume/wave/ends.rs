@@ -21,8 +21,8 @@ use crate::waves::flume_model::record::FlumeRecord;
 use crate::waves::generation::absorption::AbsorptionState;
 use crate::waves::generation::wavemaker::Wavemaker;
 
-/// Displacement of a row out of the domain at which an open end takes water, divided by the particle spacing [-]. A row must move
-/// by half a particle spacing between release and taking, so that it does not alternate between them.
+/// Displacement of a row out of the domain at which an open end takes water, divided by the particle spacing [-]. A row
+/// must move by half a particle spacing between release and taking, so that it does not alternate between them.
 const TAKES_AT: f64 = 0.5;
 
 /// Rows of boundary particles that move at one end of the particle domain.
@@ -141,12 +141,13 @@ impl Simulation {
     /// Lets water flow through the open ends, at the end of a time step: rows release and take particles.
     pub(crate) fn exchange_water(&mut self) {
         let mut ends = std::mem::take(&mut self.ends);
-        for (piston, end) in ends.iter_mut().enumerate().filter(|(_, end)| end.open.is_some()) {
+        for (piston, end) in ends.iter_mut().enumerate() {
             self.exchange_at(piston, end);
         }
         self.ends = ends;
     }
 
+    /// Lets water flow through one end, which has the particles of a `piston`; does nothing if the end is not open.
     fn exchange_at(&mut self, piston: usize, end: &mut MovingEnd) {
         let Some(dp) = end.open else { return };
         let t = self.flume_time();
@@ -206,10 +207,11 @@ impl Simulation {
             let row = ((position.z - heights[0]) / dp).round().clamp(0.0, (heights.len() - 1) as f64) as usize;
             end.inwards * (position.x - place) >= limits[row]
         };
-        let leaving: Vec<usize> = (0..self.water.len()).filter(|&i| !stays(&self.water.position[i])).collect();
-        let energy: f64 = leaving.iter().flat_map(|&particle| self.energy_of(particle)).sum();
-        self.statistics.balance.zones -= energy;
-        self.statistics.exchanged[1] += leaving.len() as u64;
-        self.water.retain(stays);
+        let keep: Vec<bool> = self.water.position.iter().map(stays).collect();
+        for leaving in (0..keep.len()).filter(|&particle| !keep[particle]) {
+            self.statistics.balance.zones -= self.energy_of(leaving).iter().sum::<f64>();
+            self.statistics.exchanged[1] += 1;
+        }
+        self.water.retain(&keep);
     }
 }
