@@ -112,7 +112,7 @@ fn print(case: &Case) {
     let cores = std::thread::available_parallelism().map_or(1, usize::from) as f64;
     let in_layer = case.domain.sides == Sides::TwoDimensional;
     let rate = if in_layer { EVALUATIONS_IN_TWO_DIMENSIONS } else { EVALUATIONS_PER_S_AND_CORE };
-    let seconds = 2.0 * estimate.particles() * estimate.steps / (rate * cores);
+    let seconds = estimate.evaluations / (rate * cores);
     println!("{}: {}", case.name, case.title);
     match &case.wave {
         Wave::None => println!("  wave        none"),
@@ -160,6 +160,10 @@ fn print(case: &Case) {
         "  domain      x = {} to {} m, {across}, still water depth up to {:.3} m",
         case.domain.x[0], case.domain.x[1], case.domain.depth
     );
+    for region in case.domain.regions.iter().filter(|_| case.domain.regions.len() > 1) {
+        let dp = f64::from(region.coarseness) * case.domain.dp;
+        println!("  spacing     {dp} m from x = {:.3} to {:.3} m", region.x[0], region.x[1]);
+    }
     if let Some(units) = &case.units {
         print_units(units);
     }

@@ -29,6 +29,9 @@ pub struct Parameters {
     pub viscosity: Viscosity,
     /// Form and constants of the density diffusion.
     pub diffusion: Diffusion,
+    /// Range of x of the water that this solver computes [m]. Water outside is in a buffer, where another solver gives
+    /// its velocity and pressure; no density diffuses between this water and the buffer.
+    pub own_x: [f64; 2],
     /// Magnitude of the gravitational acceleration, which acts downwards [m/s2].
     pub gravity: f64,
     /// Courant number C of the time step [-].
@@ -57,6 +60,7 @@ impl Parameters {
             tait,
             viscosity: Viscosity::Artificial { alpha: 0.04 },
             diffusion: Diffusion::new(DensityDiffusion::Fourtakas, 0.1, h, &tait, gravity),
+            own_x: [f64::NEG_INFINITY, f64::INFINITY],
             gravity,
             cfl: 0.2,
             boundary: BoundaryCondition::ModifiedDynamic,

@@ -115,6 +115,15 @@ fn killed_runs_with_open_ends_have_the_results_of_an_unbroken_run() {
 }
 
 #[test]
+fn killed_runs_with_regions_have_the_results_of_an_unbroken_run() {
+    let mut case = open_ends();
+    case["domain"]["x_m"] = json!([3.0, 5.6]);
+    case["domain"]["dp_m"] = json!(0.02);
+    case["domain"]["fine_x_m"] = json!([[4.0, 4.7]]);
+    kill_and_resume(&case, 3);
+}
+
+#[test]
 #[ignore = "10 to 17 min: cargo test --release --test resume -- --ignored --nocapture hundred"]
 fn a_hundred_kills_do_not_change_the_results() {
     kill_and_resume(&tutorial(), 100);

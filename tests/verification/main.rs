@@ -19,6 +19,7 @@ mod incoming_waves;
 mod lattice;
 mod open_ends;
 mod operators;
+mod regions;
 mod regular_waves;
 mod reproducibility;
 mod returning_waves;

@@ -20,6 +20,11 @@ pub struct DomainFile {
     pub top_z_m: f64,
     /// Particle spacing dp [m].
     pub dp_m: f64,
+    /// Ranges of x with fine water, from the innermost to the outermost, at most two [m]. Inside the first range, the
+    /// particle spacing is `dp_m`. Outside the first range it is 2 `dp_m`, and outside the second range 4 `dp_m`.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fine_x_m: Vec<[f64; 2]>,
     /// Region that is filled with water at the start.
     #[serde(default)]
     pub water: WaterFile,

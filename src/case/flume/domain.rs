@@ -2,6 +2,7 @@
 
 use super::bed::Flume;
 use super::obstacles;
+use super::regions::{self, Region};
 use super::site::Site;
 use super::zones::{self, DampingZone, RelaxationZone};
 use crate::case::file::{DomainFile, Sides, WaterFile};
@@ -46,6 +47,12 @@ pub struct Domain {
     pub relaxation_zone: Option<RelaxationZone>,
     /// Fixed boxes in the water.
     pub obstacles: Vec<AxisBox>,
+    /// Regions of different particle spacing, the finest first; at least one.
+    pub regions: Vec<Region>,
+    /// For the seaward and the shoreward end, whether the water of another region continues there: the end has no wall.
+    pub continues: [bool; 2],
+    /// Range of x between the interfaces to other regions [m]; infinite at ends where no region continues.
+    pub own_x: [f64; 2],
 }
 
 /// Time of the flume model at which the particle simulation starts.
@@ -76,6 +83,12 @@ impl Domain {
     pub fn site(&self, flume: &Flume) -> Site {
         let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);
         Site { profile: flume.profile.clone(), terrain: None, x, width, sides, top_z }
+    }
+
+    /// Returns the particle spacing at x [m].
+    pub fn spacing_at(&self, x: f64) -> f64 {
+        let region = self.regions.iter().find(|region| region.x[0] <= x && x <= region.x[1]);
+        self.dp * region.map_or(1.0, |region| f64::from(region.coarseness))
     }
 
     /// Returns the levels z of the rows of a moving end at x [m], from the bed to the top of the walls [m].
@@ -124,6 +137,7 @@ pub fn validate(
     let relaxation_zone =
         file.relaxation_zone.map(|zone| zones::validate_relaxation(&zone, file.x_m, damping_zone.as_ref(), check));
     let obstacles = obstacles::validate(file, width, flume, check);
+    let regions = regions::validate(file, width, smoothing_factor, check);
     if check.count() > before {
         return None;
     }
@@ -146,6 +160,9 @@ pub fn validate(
         damping_zone,
         relaxation_zone,
         obstacles,
+        regions,
+        continues: [false; 2],
+        own_x: [f64::NEG_INFINITY, f64::INFINITY],
     })
 }
 

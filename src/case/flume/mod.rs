@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`bed`] | bed, mound and still water level of the whole flume |
 //! | [`domain`] | the part of the flume that is filled with particles |
+//! | [`regions`] | regions of different particle spacing |
 //! | [`zones`] | damping zone and relaxation zone |
 //! | [`obstacles`] | fixed boxes in the water |
 //! | [`terrain`] | triangulated terrain of dry tests |
@@ -12,6 +13,7 @@
 pub mod bed;
 pub mod domain;
 mod obstacles;
+pub mod regions;
 pub mod site;
 pub mod terrain;
 pub mod zones;

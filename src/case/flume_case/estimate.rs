@@ -26,8 +26,10 @@ pub struct Estimate {
     /// Time step [s]: cfl h / c0 with smoothing length h and speed of sound c0, or the viscous limit of laminar models
     /// if this limit is smaller.
     pub dt: f64,
-    /// Number of time steps of the whole run.
+    /// Number of time steps of the whole run; coarser regions make half as many.
     pub steps: f64,
+    /// Number of evaluations of the rates of a particle in the whole run.
+    pub evaluations: f64,
 }
 
 impl Estimate {
@@ -60,13 +62,29 @@ impl Case {
 
     /// Estimates number of particles, memory and number of time steps of the run.
     pub fn estimate(&self) -> Estimate {
+        let regions = &self.domain.regions;
+        let mut all = self.of_region(&regions[0]).estimate_region();
+        for region in &regions[1..] {
+            let Estimate { fluid, boundary, bytes, evaluations, .. } = self.of_region(region).estimate_region();
+            all.fluid += fluid;
+            all.boundary += boundary;
+            all.bytes += bytes;
+            // The regions with four times the spacing make the same time steps as those with twice the spacing.
+            all.evaluations += evaluations * f64::from(region.coarseness) / 2.0;
+        }
+        all
+    }
+
+    /// Estimates one region of the run.
+    fn estimate_region(&self) -> Estimate {
         let domain = &self.domain;
         let profile = &self.flume.profile;
         let per_volume = 1.0 / (domain.dp * domain.dp * domain.dy);
         let thickness = self.numerics.boundary_layers as f64 * domain.dp;
         let (water_x, water_top) = self.water_at_start();
         let water_area = area_under(profile, water_x, water_top);
-        let end_walls = domain.x.iter().map(|x| (domain.top_z - profile.z(*x)).max(0.0)).sum::<f64>();
+        let wall = |end: usize| (domain.top_z - profile.z(domain.x[end])).max(0.0);
+        let end_walls = (0..2).filter(|&end| !domain.continues[end]).map(wall).sum::<f64>();
         let bed = length_along(profile, domain.x);
         let mut solid = (bed + end_walls) * thickness * domain.width;
         if domain.sides == Sides::Walls {
@@ -84,13 +102,15 @@ impl Case {
         let Numerics { h, cfl, viscosity, nu, .. } = self.numerics;
         let courant = cfl * h / self.fluid.sound_speed;
         let dt = if viscosity == Viscosity::Artificial { courant } else { courant.min(viscous_limit(h, nu)) };
+        let steps = (self.stop.duration / dt).ceil();
         Estimate {
             fluid: fluid.round(),
             boundary: boundary.round(),
             units: units.round(),
             bytes: BYTES_PER_PARTICLE * (fluid + boundary + units),
             dt,
-            steps: (self.stop.duration / dt).ceil(),
+            steps,
+            evaluations: 2.0 * (fluid + boundary + units) * steps,
         }
     }
 }

@@ -6,12 +6,14 @@
 //! | [`numerics`] | properties of the water and options of the SPH scheme |
 //! | [`self_contained`] | the case file that a run stores in its folder |
 //! | [`estimate`] | estimated number of particles, memory and time step |
+//! | [`region`] | the case of one region of the particle domain |
 //! | [`crest`] | warning about water above the walls |
 //! | [`reynolds`] | warning about over-viscous water |
 
 mod crest;
 pub(super) mod estimate;
 pub(super) mod numerics;
+mod region;
 mod reynolds;
 mod self_contained;
 mod validate;

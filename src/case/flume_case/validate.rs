@@ -3,6 +3,7 @@
 use super::Case;
 use super::crest;
 use super::numerics::{self, Numerics};
+use super::region;
 use super::reynolds;
 use super::self_contained::{self_contained, without_keys_free_at_start};
 use crate::case::breakage::{self, BreakageSettings};
@@ -76,6 +77,7 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
         output,
         stop,
     };
+    region::validate_contents(&case, check);
     validate_size(&case, check);
     crest::warn(&case, check);
     reynolds::warn(&case, check);

@@ -21,7 +21,7 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
     let is_open = matches!(wavemaker, Wavemaker::OpenEnds { .. });
     for (end, name) in ["seaward", "shoreward"].into_iter().enumerate().take(if is_open { 2 } else { 1 }) {
         let depth = flume.still_depth(domain.x[end]);
-        if depth < 4.0 * domain.dp {
+        if depth < 4.0 * domain.spacing_at(domain.x[end]) {
             check.reject(
                 &format!("domain.x_m[{end}]"),
                 as_text(domain.x[end]),
@@ -31,10 +31,11 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
         }
     }
     if let Some(gauge) = wavemaker.absorption_gauge() {
+        let spacing = domain.spacing_at(domain.x[0]);
         let (key, nearest) = if is_open {
-            ("wavemaker.gauge_m", NEAREST_OPEN_GAUGE * domain.dp)
+            ("wavemaker.gauge_m", NEAREST_OPEN_GAUGE * spacing)
         } else {
-            ("wavemaker.absorption_gauge_m", NEAREST_GAUGE * domain.dp)
+            ("wavemaker.absorption_gauge_m", NEAREST_GAUGE * spacing)
         };
         let furthest = 0.5 * (domain.x[1] - domain.x[0]);
         let advice = "a distance of about one depth is usual";
@@ -65,11 +66,12 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
         }
     }
     if let Some(height) = wave.height() {
-        let particles = height / domain.dp;
+        let spacing = domain.spacing_at(domain.x[0]);
+        let particles = height / spacing;
         if particles < 5.0 {
             check.warn(format!(
-                "domain.dp_m = {}: {particles:.1} particle spacings per wave height, but 5 to 10 are needed \
-                 (Altomare et al. 2017)",
+                "domain.dp_m = {}: {particles:.1} particle spacings per wave height at the wavemaker, but 5 to 10 are \
+                 needed (Altomare et al. 2017)",
                 as_text(domain.dp)
             ));
         }

@@ -127,7 +127,7 @@ pub fn validate(
         WavemakerFile::MlPiston(piston) => Wavemaker::MlPiston { absorption_gauge: piston.absorption_gauge_m },
         WavemakerFile::OpenEnds(ends) => {
             let usual = |(flume, domain): (&Flume, &Domain)| {
-                (USUAL_GAUGE * flume.still_depth(domain.x[0])).max(NEAREST_OPEN_GAUGE * domain.dp)
+                (USUAL_GAUGE * flume.still_depth(domain.x[0])).max(NEAREST_OPEN_GAUGE * domain.spacing_at(domain.x[0]))
             };
             Wavemaker::OpenEnds { gauge: ends.gauge_m.or(flume.zip(domain).map(usual)).unwrap_or(f64::NAN) }
         }

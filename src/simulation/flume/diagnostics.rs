@@ -7,7 +7,7 @@ use super::{
     failure::{self, Failure, LARGEST_COMPRESSION, Particle},
     measures::extremes::Extremes,
 };
-use crate::sph::solver::backend::WaterExtremes;
+use crate::sph::{particles::water::Water, solver::backend::WaterExtremes};
 
 /// Mach number above which the water is no longer nearly incompressible [-]. The relative change of density is about
 /// the square of the Mach number; weakly compressible SPH allows 1 % (Monaghan 1994).
@@ -69,7 +69,8 @@ impl Simulation {
     /// [`crate::sph::solver::power::Powers::divergence`]. Mach number and densities are extremes since the last row.
     pub(super) fn diagnostics_row(&mut self, dt: f64, divergence: f64) -> [f64; 10] {
         let volume = self.water_volume();
-        let start = *self.statistics.water_start.get_or_insert((volume, self.water.len() as u64));
+        let particles = self.regions().map(|region| region.water.len() as u64).sum::<u64>();
+        let start = *self.statistics.water_start.get_or_insert((volume, particles));
         let of_now = |water| {
             let extremes = Extremes::of(water)?;
             Some([extremes.fastest.0 / self.case.fluid.sound_speed, extremes.lightest.0, extremes.densest.0])
@@ -77,15 +78,22 @@ impl Simulation {
         let since_row = self.statistics.take_water_since_row();
         let [mach, lowest, highest] = since_row.or_else(|| of_now(&self.water)).unwrap_or([f64::NAN; 3]);
         let [released, taken] = self.statistics.exchanged.map(|count| count as f64);
-        let lost = start.1 as f64 + released - taken - self.water.len() as f64;
+        // Particles also enter and leave buffers between regions.
+        let expected = if self.coarse.is_empty() { start.1 as f64 + released - taken } else { particles as f64 };
+        let lost = expected - particles as f64;
         let steps = self.steps as f64;
         [self.flume_time(), volume, volume - start.0, mach, lowest, highest, divergence, steps, dt, lost]
     }
 
-    /// Returns the volume of the water, the sum of m / rho [m3].
+    /// Returns the volume of the water of all regions, without their buffers: the sum of m / rho [m3].
     fn water_volume(&self) -> f64 {
         // A serial sum, so that the last bit does not depend on the number of threads.
-        self.water.mass.iter().zip(&self.water.density).map(|(mass, density)| mass / density).sum()
+        let of_region = |region: &Self| -> f64 {
+            let Water { position, mass, density, .. } = &region.water;
+            let own = (0..position.len()).filter(|&i| region.owns(position[i].x));
+            own.map(|i| mass[i] / density[i]).sum()
+        };
+        self.regions().map(of_region).sum()
     }
 }
 

@@ -97,6 +97,12 @@ pub enum Failure {
         place.x, place.y, place.z
     )]
     UnitNotFinite { time: f64, step: u64, unit: usize, place: DVec3, speed: f64 },
+    /// A unit has reached the end of the finest region.
+    #[error(
+        "after {time:.4} s (step {step}): unit {unit} at ({:.3}, {:.3}, {:.3}) has reached the end of the fine water; \
+         extend domain.fine_x_m[0]", place.x, place.y, place.z
+    )]
+    LeftFineWater { time: f64, step: u64, unit: usize, place: DVec3 },
     /// The device that computes the water has failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
@@ -149,6 +155,18 @@ pub(super) fn find_escape(simulation: &Simulation) -> Option<Failure> {
     };
     let (time, step) = (simulation.time, simulation.steps);
     Some(Failure::Escaped { time, step, particle: Particle::of(water, i), advice })
+}
+
+/// Returns the failure for the first unit that has reached the end of the finest region; `None` if there is no such
+/// unit.
+pub(super) fn find_unit_outside(simulation: &Simulation) -> Option<Failure> {
+    let units = simulation.units.as_ref()?;
+    let tips = 0.5 * units.shape.height() + simulation.case.numerics.h;
+    let [from, to] = simulation.own_x();
+    let is_outside = |x: f64| x - tips < from || x + tips > to;
+    let unit = units.states().iter().position(|state| is_outside(state.position.x))?;
+    let (time, step, place) = (simulation.time, simulation.steps, units.states()[unit].position);
+    Some(Failure::LeftFineWater { time, step, unit: unit + 1, place })
 }
 
 /// Returns the failure for the particle of highest or lowest density, if this density differs too much from the density

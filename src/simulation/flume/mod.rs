@@ -9,6 +9,7 @@
 //! | [`failure`] | failures of a time step: cause, position, advice |
 //! | `diagnostics` | rows of `diagnostics.csv`, and warnings if the water is too fast |
 //! | `impermeable` | impermeable surfaces: no water particle flows into a solid |
+//! | [`regions`] | regions of different particle spacing, coupled through buffers |
 //! | [`wave`] | wave of a case, wavemaker and open ends, damping and relaxation zones |
 //! | [`measures`] | energy balance, extremes, mean loads, rest criterion: quantities that a run accumulates |
 //! | [`outputs`] | tables, ParaView files, checkpoints, summary |
@@ -19,6 +20,7 @@ pub mod failure;
 mod impermeable;
 pub mod measures;
 pub mod outputs;
+pub mod regions;
 pub mod run;
 pub mod scheme;
 pub mod setup;
@@ -41,14 +43,20 @@ use crate::{
     waves::flume_model::record::FlumeRecord,
 };
 use measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts};
+use regions::buffer::Buffer;
 use wave::ends::{MovingEnd, move_ends};
 
-/// State of a flume run.
+/// State of a flume run. If the case has coarser water far away, this is the state of the finest region, with all units;
+/// the other regions are simulations, too.
 pub struct Simulation {
-    /// The case.
+    /// The case; for a coarser region, the case of this region.
     pub case: Arc<Case>,
+    /// Simulations of the coarser regions, if any.
+    pub coarse: Vec<Simulation>,
+    /// Buffers beyond the ends where other regions continue, if any.
+    pub buffers: Vec<Buffer>,
     /// Recorded flow of the flume model; `None` if the wave does not come from the flume model.
-    pub flume: Option<FlumeRecord>,
+    pub flume: Option<Arc<FlumeRecord>>,
     /// The water.
     pub water: Water,
     /// Bed, walls, wavemaker and units as particles.
@@ -113,7 +121,7 @@ impl Simulation {
     /// Returns the range of x between the moving ends [m]; infinite at ends that do not move.
     pub fn between_moving_ends(&self) -> [f64; 2] {
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];
-        for end in &self.ends {
+        for end in self.regions().flat_map(|region| &region.ends) {
             let front = end.wavemaker.rest_x_m() + end.inwards * end.foremost(self.flume_time());
             range[usize::from(end.inwards < 0.0)] = front;
         }
@@ -130,6 +138,11 @@ impl Simulation {
             }
             _ => at + DVec3::from_array(gauge.displacement(self.time)),
         }
+    }
+
+    /// Returns the region to which the water at x [m] belongs; the finest region if no region does.
+    pub fn region_at(&self, x: f64) -> &Self {
+        self.regions().find(|region| region.owns(x)).unwrap_or(self)
     }
 
     /// Returns the solver of the water.

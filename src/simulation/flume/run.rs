@@ -126,8 +126,9 @@ impl Run for FlumeRun {
     }
 
     fn details(&self) -> String {
-        let Simulation { water, boundary, units, .. } = &self.simulation;
-        let water = format!("dt {:.2e} s, {} particles", self.dt, water.len() + boundary.len());
+        let units = &self.simulation.units;
+        let particles: usize = self.simulation.regions().map(|region| region.water.len() + region.boundary.len()).sum();
+        let water = format!("dt {:.2e} s, {particles} particles", self.dt);
         let Some(units) = units else { return water };
         let displacements = units.displacements();
         let mean = displacements.iter().sum::<f64>() / displacements.len().max(1) as f64;

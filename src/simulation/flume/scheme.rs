@@ -52,6 +52,7 @@ pub fn parameters(case: &Case) -> Parameters {
         },
         gap_pressure: numerics.gap_pressure,
         shifting: (numerics.shifting > 0.0).then_some(shifting),
+        own_x: case.domain.own_x,
         gravity: fluid.gravity,
         cfl: numerics.cfl,
         boundary: match numerics.boundary {
@@ -69,6 +70,9 @@ pub fn unsupported_on_gpu(case: &Case) -> Option<&'static str> {
     }
     if case.wavemaker.absorption_gauge().is_some() {
         return Some("active absorption by the wavemaker (wavemaker.absorption_gauge_m)");
+    }
+    if case.domain.regions.len() > 1 {
+        return Some("regions of different particle spacing (domain.fine_x_m)");
     }
     if matches!(case.wavemaker, case::Wavemaker::OpenEnds { .. }) {
         return Some("open ends (wavemaker.kind = \"open_ends\")");

@@ -9,6 +9,7 @@ use super::{
     Simulation, Units,
     impermeable::bins_near_surfaces,
     measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts},
+    regions::buffer::Buffer,
     scheme::{parameters, tait},
     wave::{
         ends::MovingEnd,
@@ -38,6 +39,9 @@ use crate::{
 /// Narrowest gap between a unit and its periodic image that water can pass, divided by the particle spacing [-]. A
 /// narrower gap has no room for water particles.
 const NARROWEST_GAP: f64 = 0.5;
+
+/// Largest number of particles of one region. Particles of different regions have different identification numbers.
+const IDS_PER_REGION: u32 = 1 << 29;
 
 /// Reason why a case cannot be set up.
 #[derive(Debug, Error)]
@@ -98,14 +102,35 @@ impl Simulation {
 
     /// Sets up the simulation as [`Self::on`]; the particles start at the flume time `start` [s], if given.
     pub(super) fn starting_at(device: &Device, case: Arc<Case>, start: Option<f64>) -> Result<Self, SetupError> {
-        let flume = run_flume(&case)?;
-        let start = start.unwrap_or_else(|| particle_start(&case, flume.as_ref()));
+        let flume = run_flume(&case)?.map(Arc::new);
+        let start = start.unwrap_or_else(|| particle_start(&case, flume.as_deref()));
         check_times(&case, start)?;
-        let ends = ends(&case, flume.as_ref(), start);
+        let regions = &case.domain.regions;
+        let region = |number: usize| -> Result<Self, SetupError> {
+            let of_region = Arc::new(case.of_region(&regions[number]));
+            let buffers = Buffer::of_region(&regions[number], regions, &of_region);
+            Self::of_region(device, of_region, flume.clone(), start, number as u32, buffers)
+        };
+        let mut simulation = region(0)?;
+        simulation.coarse = (1..regions.len()).map(region).collect::<Result<_, _>>()?;
+        simulation.case = case.clone();
+        Ok(simulation)
+    }
+
+    /// Sets up the simulation of the region `number`, which has the case `case`.
+    fn of_region(
+        device: &Device,
+        case: Arc<Case>,
+        flume: Option<Arc<FlumeRecord>>,
+        start: f64,
+        number: u32,
+        buffers: Vec<Buffer>,
+    ) -> Result<Self, SetupError> {
+        let ends = ends(&case, flume.as_deref(), start);
         for end in ends.iter().filter(|end| end.open.is_none()) {
             check_travel(&case, &end.wavemaker)?;
         }
-        let reach = reach_of(&ends);
+        let reach = reach_of(&case, &ends);
         let units = case.units.as_ref().map(|units| set_up_units(&case, units)).transpose()?;
 
         let (across, outline) = (across(&case), outline(&case, reach));
@@ -118,19 +143,21 @@ impl Simulation {
             count,
             case.fluid.rho0,
         );
-        let mut water = fill(&case, &across, flume.as_ref(), start);
+        let mut water = fill(&case, &across, flume.as_deref(), start);
         for obstacle in &case.domain.obstacles {
             clear_solid(&mut water, MIN_DEPTH * case.domain.dp, |point| obstacle.locate(point));
         }
         if let Some(units) = &units {
             clear_units(&mut water, units, &case);
         }
+        // Regions do not share identification numbers.
+        water.id.iter_mut().for_each(|id| *id += number * IDS_PER_REGION);
 
         let shoreward = units.iter().flat_map(Units::states).map(|state| state.position.x).reduce(f64::max);
-        let crest = shoreward.map_or(0.0, |x| crest_time(&case, flume.as_ref(), start, x));
+        let crest = shoreward.map_or(0.0, |x| crest_time(&case, flume.as_deref(), start, x));
         let [low, high] = bounds(&case, reach);
         let allowed = [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)];
-        let next_id = water.len() as u32;
+        let next_id = number * IDS_PER_REGION + water.len() as u32;
         let solver = device.solver(parameters(&case), [low, high], allowed)?;
         let mut simulation = Self {
             bins_near_surfaces: bins_near_surfaces(&case, &outline, solver.grid()),
@@ -138,6 +165,8 @@ impl Simulation {
             statistics: Statistics::new(count),
             bounds: allowed,
             case,
+            coarse: Vec::new(),
+            buffers,
             flume,
             water,
             boundary,
@@ -183,10 +212,13 @@ fn across(case: &Case) -> Across {
     Across { width: case.domain.width, count: case.domain.ny as u32, walls: case.domain.sides == case::Sides::Walls }
 }
 
-/// Returns for the seaward and the shoreward end how far its rows move out of the domain [m]; `None` for an end that
-/// does not move.
-fn reach_of(ends: &[MovingEnd]) -> [Option<f64>; 2] {
-    [1.0, -1.0].map(|inwards| ends.iter().find(|end| end.inwards == inwards).map(MovingEnd::reach))
+/// Returns for the seaward and the shoreward end how far its rows move out of the domain [m]; 0 for an end where water
+/// of another region continues; `None` for an end with a wall.
+fn reach_of(case: &Case, ends: &[MovingEnd]) -> [Option<f64>; 2] {
+    [(1.0, 0), (-1.0, 1)].map(|(inwards, end)| {
+        let moving = ends.iter().find(|end| end.inwards == inwards).map(MovingEnd::reach);
+        moving.or(case.domain.continues[end].then_some(0.0))
+    })
 }
 
 /// Returns the box around all water and boundary particles [m]; for `reach` see [`reach_of`].
@@ -208,8 +240,8 @@ fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DV
     [end(from)].into_iter().chain(points).chain([end(to)])
 }
 
-/// Returns the outline of bed, mound and end walls. A moving end replaces the wall, and the bed continues below it; for
-/// `reach` see [`reach_of`].
+/// Returns the outline of bed, mound and end walls. A moving end, or water of another region, replaces the wall, and
+/// the bed continues below it; for `reach` see [`reach_of`].
 fn outline(case: &Case, reach: [Option<f64>; 2]) -> Outline {
     let ([x0, x1], top) = (case.domain.x, case.domain.top_z);
     let thickness = case.numerics.boundary_layers as f64 * case.domain.dp;

@@ -13,6 +13,10 @@ use crate::{
     sph::solver::{backend::DeviceError, power::Powers, sampling::Sampler},
 };
 
+/// Largest number of time steps of the finest region in one time step of coarser regions, unless its stable time step
+/// becomes shorter meanwhile. The stable time step is proportional to the particle spacing, which doubles.
+const STEPS_PER_COARSE_STEP: f64 = 2.0;
+
 /// A simulation whose current state is evaluated: outputs can be written, and the next time step can be made.
 pub struct PreparedStep<'a> {
     simulation: &'a mut Simulation,
@@ -36,26 +40,74 @@ impl DerefMut for PreparedStep<'_> {
 }
 
 impl Simulation {
-    /// Evaluates the current state: neighbours, boundary densities, rates and length of the time step.
+    /// Evaluates the current state: neighbours, boundary densities, rates and length of the time step. If there are
+    /// coarser regions, the time step is as long as they allow, but at most two time steps of the finest region.
     ///
     /// # Errors
     /// If a rate is not finite, or the device is lost.
     pub fn begin_step(&mut self) -> Result<PreparedStep<'_>, Failure> {
-        self.solver.sort(&mut self.water, &self.boundary);
-        self.solver.build_neighbour_lists(&self.water, &self.boundary);
-        self.solver.boundary_densities(&mut self.boundary);
-        self.solver.rates();
-        let limits = self.solver.limits()?;
-        let dt = limits.time_step(self.solver.parameters());
-        if !(limits.acceleration.is_finite() && limits.signal_speed.is_finite() && dt > 0.0) {
-            self.fetch()?;
-            return Err(failure::not_finite(self));
+        self.evaluate();
+        self.coarse.iter_mut().for_each(Self::evaluate);
+        let mut dt = self.longest_step()?;
+        if !self.coarse.is_empty() {
+            dt *= STEPS_PER_COARSE_STEP;
+            for region in &mut self.coarse {
+                dt = dt.min(region.longest_step()?);
+            }
         }
         if self.steps == 0 {
             // The first row of the tables is written before the first half step: sum the loads at the start for it.
             self.sum_unit_loads(0.0)?;
         }
         Ok(PreparedStep { simulation: self, dt, is_fetched: false })
+    }
+
+    /// Evaluates the current state: neighbours, boundary densities and rates.
+    fn evaluate(&mut self) {
+        self.solver.sort(&mut self.water, &self.boundary);
+        self.solver.build_neighbour_lists(&self.water, &self.boundary);
+        self.solver.boundary_densities(&mut self.boundary);
+        self.solver.rates();
+    }
+
+    /// Returns the longest stable time step for the current state [s].
+    ///
+    /// # Errors
+    /// If a rate is not finite, or the device is lost.
+    fn longest_step(&mut self) -> Result<f64, Failure> {
+        let limits = self.solver.limits()?;
+        let dt = limits.time_step(self.solver.parameters());
+        if !(limits.acceleration.is_finite() && limits.signal_speed.is_finite() && dt > 0.0) {
+            self.fetch()?;
+            return Err(failure::not_finite(self));
+        }
+        Ok(dt)
+    }
+
+    /// Makes a time step of this region: predictor, rates at the half step, corrector, loads on the units, impermeable
+    /// surfaces, motion of the units, flow through open ends. The current state must be evaluated.
+    ///
+    /// # Errors
+    /// As for [`PreparedStep::finish`].
+    fn advance(&mut self, dt: f64) -> Result<(), Failure> {
+        self.absorb(dt);
+        self.predict(dt);
+        self.solver.rates();
+        self.drive_buffers();
+        self.solver.correct(dt, &mut self.water, &mut self.boundary);
+        self.relax_in_zones(dt);
+        self.sum_unit_loads(dt)?;
+        self.remove_velocities_into_solids(dt)?;
+        if let Some(memory) = self.solver.device_memory() {
+            memory.sort_ahead();
+        }
+        self.advance_units(dt)?;
+        self.time += dt;
+        self.steps += 1;
+        self.statistics.count_step(dt);
+        self.exchange_water();
+        self.place_boundary();
+        self.watch_water()
     }
 
     /// Makes one time step; returns the length of the time step [s].
@@ -126,7 +178,7 @@ impl Simulation {
 
     /// Returns a sampler of the water. [`Self::begin_step`] must have evaluated the current state, and the arrays in
     /// host memory must contain this state.
-    pub(super) fn sampler(&self) -> Sampler<'_> {
+    pub fn sampler(&self) -> Sampler<'_> {
         let parameters = self.solver.parameters();
         Sampler {
             grid: self.solver.grid(),
@@ -165,41 +217,51 @@ impl PreparedStep<'_> {
         Ok(self.simulation.sampler())
     }
 
-    /// Returns the current powers that the water receives from boundaries, viscosity and density diffusion [W].
+    /// Returns the current powers that the water of all regions receives from boundaries, viscosity and density diffusion [W].
     ///
     /// # Errors
     /// If the device is lost.
     pub fn powers(&mut self) -> Result<Powers, DeviceError> {
         self.fetch()?;
-        let simulation = &mut *self.simulation;
-        simulation.solver.powers(&simulation.water)
+        let Simulation { solver, water, coarse, .. } = &mut *self.simulation;
+        let mut powers = solver.powers(water)?;
+        for region in coarse {
+            powers.add(region.solver.powers(&region.water)?);
+        }
+        Ok(powers)
     }
 
-    /// Makes the time step: predictor, rates at the half step, corrector, loads on the units, impermeable surfaces,
-    /// motion of the units, flow through open ends.
+    /// Makes the time step in all regions; the finest region makes several shorter time steps. Then particles enter and
+    /// leave the buffers between the regions.
     ///
     /// # Errors
-    /// If a particle has left the domain or has an impossible density, if units overlap each other or the bed too much,
-    /// or if the device is lost.
+    /// If a particle has left the domain or has an impossible density, if units overlap each other or the bed too much, if
+    /// a unit has reached the end of the finest region, or if the device is lost.
     pub fn finish(self) -> Result<(), Failure> {
         let (simulation, dt) = (self.simulation, self.dt);
-        simulation.absorb(dt);
-        simulation.predict(dt);
-        simulation.solver.rates();
-        simulation.solver.correct(dt, &mut simulation.water, &mut simulation.boundary);
-        simulation.relax_in_zones(dt);
-        simulation.sum_unit_loads(dt)?;
-        simulation.remove_velocities_into_solids(dt)?;
-        if let Some(memory) = simulation.solver.device_memory() {
-            memory.sort_ahead();
+        if simulation.coarse.is_empty() {
+            return simulation.advance(dt);
         }
-        simulation.advance_units(dt)?;
-        simulation.time += dt;
-        simulation.steps += 1;
-        simulation.statistics.count_step(dt);
-        simulation.exchange_water();
-        simulation.place_boundary();
-        simulation.watch_water()
+        // Not before the outputs: a checkpoint must not contain buffers that are already set.
+        simulation.couple();
+        let end = simulation.time + dt;
+        for region in &mut simulation.coarse {
+            region.advance(dt)?;
+            simulation.statistics.add_region(&mut region.statistics);
+        }
+        loop {
+            let left = end - simulation.time;
+            let steps = (left / simulation.longest_step()?).ceil();
+            simulation.advance(left / steps)?;
+            if steps <= 1.0 {
+                break;
+            }
+            simulation.evaluate();
+            simulation.drive_buffers();
+        }
+        simulation.for_each_region(|_, region| region.time = end);
+        simulation.exchange_between_regions(dt);
+        failure::find_unit_outside(simulation).map_or(Ok(()), Err)
     }
 }
 

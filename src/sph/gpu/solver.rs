@@ -242,6 +242,14 @@ impl Backend for GpuSolver {
         Ok(rates_of(&self.card.read(encoder, &rates, 0, count)?))
     }
 
+    fn host_rates(&self) -> &[Rate] {
+        &[]
+    }
+
+    fn host_rates_mut(&mut self) -> &mut [Rate] {
+        &mut []
+    }
+
     fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError> {
         let all = self.water_rates()?;
         self.enqueue(|_, Loaded { memory, .. }, encoder| memory.pressure_rates.run(encoder, groups(memory.water, 64)));
@@ -250,7 +258,7 @@ impl Backend for GpuSolver {
         // `pressure_rates` writes to the buffer `half_offset`, which is not in use at this time.
         let (rates, count) = (memory.half_offset.clone(), memory.water);
         let pressure_only = rates_of(&self.card.read(encoder, &rates, 0, count)?);
-        Ok(Powers::of(water, &self.parameters.tait, &all, &pressure_only))
+        Ok(Powers::of(water, &self.parameters, &all, &pressure_only))
     }
 }
 

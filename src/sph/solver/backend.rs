@@ -139,6 +139,13 @@ pub trait Backend: Send {
     /// overwrites the rates. In the rates from a card, the approach speed is zero.
     fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError>;
 
+    /// Returns the last computed rates of the water in the memory of the host, in sorted order; empty if a card computes
+    /// them.
+    fn host_rates(&self) -> &[Rate];
+
+    /// Like [`Self::host_rates`]; the rates can be replaced before they are used.
+    fn host_rates_mut(&mut self) -> &mut [Rate];
+
     /// Returns the powers that the water receives. `water` must be the last state for which rates were computed; for a
     /// card, fetch it first.
     fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError>;
@@ -251,6 +258,14 @@ impl Backend for Solver {
 
     fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError> {
         Ok(Self::water_rates(self).to_vec())
+    }
+
+    fn host_rates(&self) -> &[Rate] {
+        Self::water_rates(self)
+    }
+
+    fn host_rates_mut(&mut self) -> &mut [Rate] {
+        Self::water_rates_mut(self)
     }
 
     fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError> {

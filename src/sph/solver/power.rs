@@ -15,8 +15,9 @@ use glam::DVec3;
 use super::step::Solver;
 use crate::sph::{
     pairs::rate::Rate,
+    parameters::Parameters,
     particles::water::Water,
-    terms::{density_diffusion::Diffusion, equation_of_state::Tait, viscosity::Viscosity},
+    terms::{density_diffusion::Diffusion, viscosity::Viscosity},
 };
 
 /// Power received by the water [W].
@@ -30,6 +31,8 @@ pub struct Powers {
     pub diffusion: f64,
     /// Root mean square of div v over the volume of the water [1/s]; div v = -(1 / rho) d rho/dt, without diffusion.
     pub divergence: f64,
+    /// Volume of the water [m3].
+    pub volume: f64,
 }
 
 impl Solver {
@@ -45,18 +48,22 @@ impl Solver {
             },
             Diffusion::none(),
         );
-        Powers::of(water, &parameters.tait, self.water_rates(), &pressure_only)
+        Powers::of(water, &parameters, self.water_rates(), &pressure_only)
     }
 }
 
 impl Powers {
-    /// Computes the powers of the sorted water. The rates `all` include viscosity and diffusion; the rates
-    /// `pressure_only` do not.
-    pub(in crate::sph) fn of(water: &Water, tait: &Tait, all: &[Rate], pressure_only: &[Rate]) -> Self {
+    /// Computes the powers of the sorted water without buffers. The rates `all` include viscosity and diffusion; the
+    /// rates `pressure_only` do not.
+    pub(in crate::sph) fn of(water: &Water, parameters: &Parameters, all: &[Rate], pressure_only: &[Rate]) -> Self {
+        let (tait, [from, to]) = (&parameters.tait, parameters.own_x);
         let vector = |rate: &Rate| DVec3::from_array(rate.acceleration.map(f64::from));
         let mut powers = Self::default();
-        let (mut volume, mut squares) = (0.0, 0.0);
+        let mut squares = 0.0;
         for (a, (all, pressure)) in all.iter().zip(pressure_only).enumerate() {
+            if !(from..to).contains(&water.position[a].x) {
+                continue;
+            }
             let (mass, density) = (water.mass[a], water.density[a]);
             // Power per mass and per d rho/dt: p / rho^2 [J m3/kg2].
             let per_rate = tait.pressure(density) / (density * density);
@@ -64,13 +71,25 @@ impl Powers {
             powers.boundary += mass * (water.velocity[a].dot(vector(pressure)) + per_rate * of_pressure);
             powers.viscosity += mass * water.velocity[a].dot(vector(all) - vector(pressure));
             powers.diffusion += mass * per_rate * (of_all - of_pressure);
-            volume += mass / density;
+            powers.volume += mass / density;
             squares += mass / density * (of_pressure / density).powi(2);
         }
-        if volume > 0.0 {
-            powers.divergence = (squares / volume).sqrt();
+        if powers.volume > 0.0 {
+            powers.divergence = (squares / powers.volume).sqrt();
         }
         powers
+    }
+
+    /// Adds the powers of other water.
+    pub fn add(&mut self, other: Self) {
+        self.boundary += other.boundary;
+        self.viscosity += other.viscosity;
+        self.diffusion += other.diffusion;
+        let squares = [*self, other].map(|powers| powers.volume * powers.divergence.powi(2));
+        self.volume += other.volume;
+        if self.volume > 0.0 {
+            self.divergence = (squares.iter().sum::<f64>() / self.volume).sqrt();
+        }
     }
 }
 
@@ -88,12 +107,12 @@ mod tests {
             water.mass.push(mass);
         }
         let rates = |density: [f32; 2]| density.map(|density| Rate { density, ..Rate::default() });
-        let tait = Tait { rho0: 1000.0, c0: 15.0, gamma: 7.0 };
+        let parameters = Parameters::published(0.1, 0.2, 15.0, 9.81, None);
         // div v is 0.2 / s in a quarter of the water and -0.1 / s in the rest. Diffusion adds 50 kg/(m3 s) to every
         // d rho/dt and must not affect the divergence.
-        let powers = Powers::of(&water, &tait, &rates([-150.0, 150.0]), &rates([-200.0, 100.0]));
+        let powers = Powers::of(&water, &parameters, &rates([-150.0, 150.0]), &rates([-200.0, 100.0]));
         let expected = (0.25 * 0.2_f64.powi(2) + 0.75 * 0.1_f64.powi(2)).sqrt();
         assert!((powers.divergence - expected).abs() < 1e-12);
-        assert_eq!(Powers::of(&Water::default(), &tait, &[], &[]).divergence, 0.0);
+        assert_eq!(Powers::of(&Water::default(), &parameters, &[], &[]).divergence, 0.0);
     }
 }

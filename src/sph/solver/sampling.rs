@@ -51,30 +51,23 @@ impl Sampler<'_> {
     fn near(&self, point: DVec3, z: RangeInclusive<usize>) -> impl Iterator<Item = (DVec3, usize)> {
         let (grid, reach) = (self.grid, self.kernel.support());
         let [nx, ny, _] = grid.count;
-        let bins = |axis: usize| grid.along(axis, point[axis] - reach)..=grid.along(axis, point[axis] + reach);
-        let x = bins(0);
-        // In a periodic flume, search all bins along y. This costs little, because there are few gauges.
-        let y = if grid.periodic_width.is_some() { 0..=ny - 1 } else { bins(1) };
-        let rows = z.flat_map(move |iz| y.clone().map(move |iy| (iz * ny + iy) * nx));
+        let x = grid.along(0, point.x - reach)..=grid.along(0, point.x + reach);
+        let y = grid.rows_across(point.y - reach, point.y + reach);
+        let rows = z.flat_map(move |iz| y.clone().map(move |iy| (iz * ny + iy % ny) * nx));
         let members = rows.flat_map(move |row| self.bins.start[row + x.start()]..self.bins.start[row + x.end() + 1]);
+        let in_layer = self.kernel.dimensions() == 2;
         members.map(move |b| {
-            let mut r = self.water.position[b as usize] - point;
-            if self.kernel.dimensions() == 2 {
-                r.y = 0.0;
-            } else if let Some(width) = grid.periodic_width {
-                r.y -= width * (r.y / width).round();
-            }
-            (r, b as usize)
+            let r = self.water.position[b as usize] - point;
+            (if in_layer { DVec3 { y: 0.0, ..r } } else { grid.nearest_image(r) }, b as usize)
         })
     }
 
-    /// Calls `f` for each water particle within the kernel support of a point, and returns the accumulated value. `f`
-    /// takes the value accumulated so far, the vector from the point to the particle [m] and the index of the particle.
-    fn fold<T>(&self, point: DVec3, start: T, mut f: impl FnMut(T, DVec3, usize) -> T) -> T {
+    /// Calls `f` for each water particle within the kernel support of a point, with the vector from the point to the
+    /// particle [m] and the index of the particle.
+    fn for_each_near(&self, point: DVec3, mut f: impl FnMut(DVec3, usize)) {
         let reach = self.kernel.support();
         let z = self.grid.along(2, point.z - reach)..=self.grid.along(2, point.z + reach);
-        let within = self.near(point, z).filter(|(r, _)| r.length_squared() < reach * reach);
-        within.fold(start, |value, (r, b)| f(value, r, b))
+        self.near(point, z).filter(|(r, _)| r.length_squared() < reach * reach).for_each(|(r, b)| f(r, b));
     }
 
     /// Returns the weight V W = (m / rho) W [-] of the particle `b`; `r` is the vector from the point to the particle
@@ -85,42 +78,60 @@ impl Sampler<'_> {
 
     /// Returns the sum of W V [-]: 1 inside the water, 1/2 at the free surface.
     pub fn occupied(&self, point: DVec3) -> f64 {
-        self.fold(point, 0.0, |sum, r, b| sum + self.weight(r, b))
+        let mut sum = 0.0;
+        self.for_each_near(point, |r, b| sum += self.weight(r, b));
+        sum
     }
 
-    /// Returns pressure and velocity at a point from a linear fit with kernel weights (moving least squares), or the
-    /// weighted mean if the fit is ill-conditioned. Returns `None` if the point is dry.
+    /// Returns pressure and velocity at a point, as [`Self::fit`]. Returns `None` if the point is dry.
     pub fn sample(&self, point: DVec3) -> Option<Sample> {
+        let [pressure, u, v, w] = self.fit(point, |b| {
+            let [u, v, w] = self.water.velocity[b].to_array();
+            [self.tait.pressure(self.water.density[b]), u, v, w]
+        })?;
+        Some(Sample { pressure, velocity: DVec3::new(u, v, w) })
+    }
+
+    /// Returns `N` fields at a point from a linear fit with kernel weights (moving least squares), or their weighted
+    /// means if the fit is ill-conditioned. `values` returns the fields at a particle. Returns `None` if the point is
+    /// dry.
+    pub fn fit<const N: usize>(&self, point: DVec3, values: impl Fn(usize) -> [f64; N]) -> Option<[f64; N]> {
         let per_h = 1.0 / self.kernel.h;
-        // Sums, with the weight V W, of the products of (1, x, y, z) with (1, x, y, z, p, u, v, w) with x, y, z in
-        // units of h, the pressure p and the velocity components u, v, w.
-        let mut moments = self.fold(point, [[0.0; 8]; 4], |mut sums, r, b| {
+        // Sums, with the weight V W, of the products of (1, x, y, z) with (1, x, y, z) and with the fields; x, y, z in
+        // units of h.
+        let (mut matrix, mut right) = ([[0.0; 4]; 4], [[0.0; N]; 4]);
+        self.for_each_near(point, |r, b| {
             let weight = self.weight(r, b);
             let [x, y, z] = (r * per_h).to_array();
-            let [u, v, w] = self.water.velocity[b].to_array();
-            let columns = [1.0, x, y, z, self.tait.pressure(self.water.density[b]), u, v, w];
-            for (row, base) in sums.iter_mut().zip([1.0, x, y, z]) {
-                for (sum, column) in row.iter_mut().zip(columns) {
-                    *sum += weight * base * column;
-                }
+            let (bases, values) = ([1.0, x, y, z], values(b));
+            for ((row, right), base) in matrix.iter_mut().zip(&mut right).zip(bases) {
+                let weight = weight * base;
+                row.iter_mut().zip(bases).for_each(|(sum, column)| *sum += weight * column);
+                right.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
             }
-            sums
         });
-        let occupied = moments[0][0];
+        let occupied = matrix[0][0];
         // The sum of W V is 0.2 slightly above a calm free surface; a point with a smaller sum counts as dry.
         if occupied < 0.2 {
             return None;
         }
         if self.kernel.dimensions() == 2 {
             // Fields do not vary across the flume.
-            moments[2][2] = SECOND_MOMENT * occupied;
+            matrix[2][2] = SECOND_MOMENT * occupied;
         }
-        let value = |field: usize| {
-            let rows = moments.map(|row| [row[0], row[1], row[2], row[3], row[4 + field]]);
-            solve(rows, MIN_DETERMINANT * SECOND_MOMENT.powi(3) * occupied.powi(4))
-                .map_or(moments[0][4 + field] / occupied, |s| s[0])
-        };
-        Some(Sample { pressure: value(0), velocity: DVec3::new(value(1), value(2), value(3)) })
+        // The matrix is symmetric: its solution for (1, 0, 0, 0) has the weights of the right-hand sides.
+        let unit = |k: usize| f64::from(u8::from(k == 0));
+        let rows = std::array::from_fn(|k| {
+            let [a, b, c, d] = matrix[k];
+            [a, b, c, d, unit(k)]
+        });
+        let weights = solve(rows, MIN_DETERMINANT * SECOND_MOMENT.powi(3) * occupied.powi(4)).unwrap_or([
+            1.0 / occupied,
+            0.0,
+            0.0,
+            0.0,
+        ]);
+        Some(std::array::from_fn(|field| (0..4).map(|k| weights[k] * right[k][field]).sum()))
     }
 
     /// Returns the level z of the free surface at (x, y) [m]: the highest level above `low` [m] at which the sum of W V

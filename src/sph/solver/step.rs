@@ -148,8 +148,9 @@ impl Solver {
         let (grid, parameters) = (&self.grid, &self.parameters);
         let records = self.records[..water.position.len()].par_iter_mut();
         records.enumerate().with_min_len(MIN_CHUNK).for_each(|(i, out)| {
-            *out =
-                record(grid, parameters, water.position[i], water.velocity[i], water.density[i], water.mass[i], true);
+            let position = water.position[i];
+            let diffuses = parameters.own_x[0] <= position.x && position.x < parameters.own_x[1];
+            *out = record(grid, parameters, position, water.velocity[i], water.density[i], water.mass[i], diffuses);
         });
     }
 
@@ -206,6 +207,11 @@ impl Solver {
     /// Returns the last computed rates of the water, in sorted order.
     pub fn water_rates(&self) -> &[Rate] {
         &self.water.rates
+    }
+
+    /// Returns the last computed rates of the water, in sorted order, so that they can be replaced.
+    pub fn water_rates_mut(&mut self) -> &mut [Rate] {
+        &mut self.water.rates
     }
 
     /// Computes the rates of the water for the current records, but with the given viscosity and diffusion.

@@ -36,16 +36,19 @@ impl Simulation {
         .map(|per_mass| water.mass[particle] * per_mass)
     }
 
-    /// Returns the energy of water and units.
+    /// Returns the energy of the water of all regions, without their buffers, and of the units.
     pub fn energy(&self) -> Energies {
         let parameters = self.solver().parameters();
         let mut energy =
             Energies { kinetic: 0.0, potential: 0.0, internal: 0.0, units_kinetic: 0.0, units_potential: 0.0 };
-        for particle in 0..self.water.len() {
-            let [kinetic, potential, internal] = self.energy_of(particle);
-            energy.kinetic += kinetic;
-            energy.potential += potential;
-            energy.internal += internal;
+        for region in self.regions() {
+            let position = &region.water.position;
+            for particle in (0..position.len()).filter(|&particle| region.owns(position[particle].x)) {
+                let [kinetic, potential, internal] = region.energy_of(particle);
+                energy.kinetic += kinetic;
+                energy.potential += potential;
+                energy.internal += internal;
+            }
         }
         if let (Some(units), Some(of_case)) = (&self.units, &self.case.units) {
             // In two dimensions, the water is as thick as one slice of a unit. Therefore use the mass of one slice.

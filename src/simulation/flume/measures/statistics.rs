@@ -77,6 +77,21 @@ impl Statistics {
         self.water_since_row = Some([m.max(mach), low.min(lowest_density), high.max(highest_density)]);
     }
 
+    /// Adds what a coarser region has counted since the last call: extremes of its water, energy received in zones, water
+    /// exchanged by open ends, and warnings.
+    pub fn add_region(&mut self, region: &mut Self) {
+        if let Some([mach, lowest, highest]) = region.take_water_since_row() {
+            self.count_water(mach, lowest, highest);
+        }
+        self.balance.zones += std::mem::take(&mut region.balance.zones);
+        for (all, of_region) in self.exchanged.iter_mut().zip(std::mem::take(&mut region.exchanged)) {
+            *all += of_region;
+        }
+        self.warnings.append(&mut region.warnings);
+        // A later warning in another region would not tell anything new.
+        region.largest_mach = self.largest_mach;
+    }
+
     /// Returns the largest Mach number [-], lowest and highest density [kg/m3] since the last call; `None` if no time
     /// step was counted since then.
     pub fn take_water_since_row(&mut self) -> Option<[f64; 3]> {

@@ -13,6 +13,7 @@ use super::recorder_state::RecorderState;
 use crate::simulation::flume::{
     Simulation,
     measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts},
+    regions::buffer::BufferState,
     setup::SetupError,
     wave::ends::EndState,
 };
@@ -27,7 +28,7 @@ use crate::{
 };
 
 /// Version of the file layout; increased when the layout changes.
-const VERSION: u32 = 16;
+const VERSION: u32 = 17;
 
 /// The state of a run without the arrays.
 #[derive(Serialize, Deserialize)]
@@ -45,15 +46,50 @@ struct Scalars {
     rigid: Option<RigidSnapshot>,
     fluid_loads: Vec<Load>,
     mean_loads: MeanLoads,
+    /// The regions, the finest first.
+    regions: Vec<RegionScalars>,
+}
+
+/// The state of a region without the arrays.
+#[derive(Serialize, Deserialize)]
+struct RegionScalars {
     ends: Vec<EndState>,
+    buffers: Vec<BufferState>,
     next_id: u32,
+}
+
+/// The arrays of a region.
+struct RegionArrays {
+    water: Water,
+    boundary_density: Vec<f64>,
+}
+
+impl RegionArrays {
+    fn write(&self, group: &Group) -> Hdf5Result<()> {
+        write_vectors(group, "position_m", &self.water.position)?;
+        write_vectors(group, "velocity_m_s", &self.water.velocity)?;
+        write_column(group, "density_kg_m3", &self.water.density)?;
+        write_column(group, "mass_kg", &self.water.mass)?;
+        write_column(group, "id", &self.water.id)?;
+        write_column(group, "boundary_density_kg_m3", &self.boundary_density)
+    }
+
+    fn read(group: &Group) -> Hdf5Result<Self> {
+        let water = Water {
+            position: read_vectors(group, "position_m")?,
+            velocity: read_vectors(group, "velocity_m_s")?,
+            density: group.dataset("density_kg_m3")?.read_raw()?,
+            mass: group.dataset("mass_kg")?.read_raw()?,
+            id: group.dataset("id")?.read_raw()?,
+        };
+        Ok(Self { water, boundary_density: group.dataset("boundary_density_kg_m3")?.read_raw()? })
+    }
 }
 
 /// A copy of the state of a run, which can be written while the run continues.
 pub struct Checkpoint {
     scalars: Scalars,
-    water: Water,
-    boundary_density: Vec<f64>,
+    regions: Vec<RegionArrays>,
     water_at_impacts: WaterAtImpacts,
 }
 
@@ -79,13 +115,15 @@ impl Checkpoint {
             rigid: units.map(|units| units.world.snapshot()),
             fluid_loads: units.map_or_else(Vec::new, |units| units.fluid_loads.clone()),
             mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
-            ends: simulation.ends.iter().map(|end| end.state.clone()).collect(),
-            next_id: simulation.next_id,
+            regions: simulation.regions().map(scalars_of).collect(),
+        };
+        let arrays = |region: &Simulation| RegionArrays {
+            water: region.water.clone(),
+            boundary_density: region.boundary.density.clone(),
         };
         Self {
             scalars,
-            water: simulation.water.clone(),
-            boundary_density: simulation.boundary.density.clone(),
+            regions: simulation.regions().map(arrays).collect(),
             water_at_impacts: units.map_or_else(WaterAtImpacts::default, |units| units.water_at_impacts.clone()),
         }
     }
@@ -99,13 +137,9 @@ impl Checkpoint {
         let path = dir.join(file);
         let text = serde_json::to_string(&self.scalars).map_err(OutputError::json(&path))?;
         write_state(&path, &text, |file| {
-            let group = file.create_group("water")?;
-            write_vectors(&group, "position_m", &self.water.position)?;
-            write_vectors(&group, "velocity_m_s", &self.water.velocity)?;
-            write_column(&group, "density_kg_m3", &self.water.density)?;
-            write_column(&group, "mass_kg", &self.water.mass)?;
-            write_column(&group, "id", &self.water.id)?;
-            write_column(&file.create_group("boundary")?, "density_kg_m3", &self.boundary_density)?;
+            for (number, region) in self.regions.iter().enumerate() {
+                region.write(&file.create_group(&group_of(number))?)?;
+            }
             write_impacts(&file.create_group("impacts")?, &self.water_at_impacts)
         })
     }
@@ -125,7 +159,7 @@ impl Checkpoint {
     /// If the checkpoint is missing, damaged or of another case.
     pub fn read(dir: &Path, identity: &CaseIdentity) -> Result<Self, OutputError> {
         let path = dir.join(Self::FILE);
-        let (text, (water, boundary_density, water_at_impacts)) = read_state(&path, read_arrays)?;
+        let (text, (regions, water_at_impacts)) = read_state(&path, read_arrays)?;
         let scalars: Scalars = parse(&text, &path)?;
         if scalars.version != VERSION {
             let what = format!(
@@ -135,7 +169,7 @@ impl Checkpoint {
             return Err(OutputError::content(&path, what));
         }
         scalars.case.check(identity).map_err(|reason| OutputError::content(&path, reason))?;
-        Ok(Self { scalars, water, boundary_density, water_at_impacts })
+        Ok(Self { scalars, regions, water_at_impacts })
     }
 
     /// Sets up the simulation of the case. Its particles start at the same flume time as those of the checkpoint, also
@@ -153,14 +187,23 @@ impl Checkpoint {
     /// # Errors
     /// If the checkpoint does not match the simulation.
     pub fn restore(self, simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
-        let Self { scalars, water, boundary_density, water_at_impacts } = self;
+        let Self { scalars, regions, water_at_impacts } = self;
         let path = dir.join(Self::FILE);
-        if boundary_density.len() != simulation.boundary.len() {
-            return Err(OutputError::content(&path, "does not match the particles of the case".to_owned()));
+        let count = simulation.regions().count();
+        if regions.len() != count || scalars.regions.len() != count {
+            return Err(OutputError::content(&path, "does not match the regions of the domain".to_owned()));
         }
-        simulation.water = water;
-        simulation.boundary.density = boundary_density;
-        simulation.time = scalars.time;
+        let mut regions = scalars.regions.into_iter().zip(regions);
+        let mut mismatch = None;
+        simulation.for_each_region(|_, region| {
+            let Some((of_region, arrays)) = regions.next() else { return };
+            mismatch = mismatch.or(restore_region(region, of_region, arrays).err());
+            region.time = scalars.time;
+            region.statistics.largest_mach = scalars.statistics.largest_mach;
+        });
+        if let Some(what) = mismatch {
+            return Err(OutputError::content(&path, format!("does not match {what}")));
+        }
         simulation.steps = scalars.steps;
         simulation.statistics = scalars.statistics;
         let now = simulation.solver.name();
@@ -171,16 +214,6 @@ impl Checkpoint {
                 scalars.device
             ));
         }
-        if scalars.ends.len() != simulation.ends.len() {
-            return Err(OutputError::content(&path, "does not match the ends of the domain".to_owned()));
-        }
-        for (end, state) in simulation.ends.iter_mut().zip(scalars.ends) {
-            if end.state.released.len() != state.released.len() {
-                return Err(OutputError::content(&path, "does not match the rows of the open ends".to_owned()));
-            }
-            end.state = state;
-        }
-        simulation.next_id = scalars.next_id;
         if let (Some(units), Some(snapshot)) = (&mut simulation.units, &scalars.rigid) {
             units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;
             units.fluid_loads = scalars.fluid_loads;
@@ -191,9 +224,52 @@ impl Checkpoint {
             }
             units.water_at_impacts = water_at_impacts;
         }
-        simulation.place_boundary();
+        simulation.for_each_region(|_, region| region.place_boundary());
         Ok(scalars.recorder)
     }
+}
+
+fn scalars_of(region: &Simulation) -> RegionScalars {
+    RegionScalars {
+        ends: region.ends.iter().map(|end| end.state.clone()).collect(),
+        buffers: region.buffers.iter().map(|buffer| buffer.state.clone()).collect(),
+        next_id: region.next_id,
+    }
+}
+
+/// Returns the name of the group with the arrays of a region.
+fn group_of(region: usize) -> String {
+    if region == 0 { "water".to_owned() } else { format!("water_{}", region + 1) }
+}
+
+/// Restores the state of a region; returns what does not match if the checkpoint is of other particles.
+fn restore_region(region: &mut Simulation, scalars: RegionScalars, arrays: RegionArrays) -> Result<(), &'static str> {
+    let RegionScalars { ends, buffers, next_id } = scalars;
+    if arrays.boundary_density.len() != region.boundary.len() {
+        return Err("the particles of the case");
+    }
+    if ends.len() != region.ends.len() {
+        return Err("the ends of the domain");
+    }
+    if buffers.len() != region.buffers.len() {
+        return Err("the regions of the domain");
+    }
+    for (end, state) in region.ends.iter_mut().zip(ends) {
+        if end.state.released.len() != state.released.len() {
+            return Err("the rows of the open ends");
+        }
+        end.state = state;
+    }
+    for (buffer, state) in region.buffers.iter_mut().zip(buffers) {
+        if buffer.state.advance.len() != state.advance.len() {
+            return Err("the buffers of the regions");
+        }
+        buffer.state = state;
+    }
+    region.water = arrays.water;
+    region.boundary.density = arrays.boundary_density;
+    region.next_id = next_id;
+    Ok(())
 }
 
 fn parse<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, OutputError> {
@@ -221,15 +297,11 @@ fn read_impacts(group: &Group) -> Hdf5Result<WaterAtImpacts> {
     Ok(WaterAtImpacts(contacts.into_iter().zip(water).collect()))
 }
 
-/// Reads the water, the boundary densities, and the water loads at the impacts.
-fn read_arrays(file: &File) -> Hdf5Result<(Water, Vec<f64>, WaterAtImpacts)> {
-    let group = file.group("water")?;
-    let water = Water {
-        position: read_vectors(&group, "position_m")?,
-        velocity: read_vectors(&group, "velocity_m_s")?,
-        density: group.dataset("density_kg_m3")?.read_raw()?,
-        mass: group.dataset("mass_kg")?.read_raw()?,
-        id: group.dataset("id")?.read_raw()?,
-    };
-    Ok((water, file.dataset("boundary/density_kg_m3")?.read_raw()?, read_impacts(&file.group("impacts")?)?))
+/// Reads the arrays of all regions, and the water loads at the impacts.
+fn read_arrays(file: &File) -> Hdf5Result<(Vec<RegionArrays>, WaterAtImpacts)> {
+    let mut regions = Vec::new();
+    while file.link_exists(&group_of(regions.len())) {
+        regions.push(RegionArrays::read(&file.group(&group_of(regions.len()))?)?);
+    }
+    Ok((regions, read_impacts(&file.group("impacts")?)?))
 }

@@ -285,12 +285,13 @@ fn gauge_columns(case: &Case) -> Vec<String> {
 /// Returns a row of `gauges.csv`; NaN for gauges without water, and for gauges behind the wavemaker or less than the
 /// smoothing length in front of it.
 fn gauge_row(simulation: &Simulation) -> Vec<f64> {
-    let (case, sampler) = (&simulation.case, simulation.sampler());
+    let case = &simulation.case;
     let [from, to] = simulation.between_moving_ends();
     let is_between = |x: f64| (from + case.numerics.h..to - case.numerics.h).contains(&x);
     let mut row = vec![simulation.flume_time()];
     for gauge in wet_gauges(case) {
         let at = simulation.gauge_position(gauge);
+        let sampler = simulation.region_at(at.x).sampler();
         let sample = || sampler.sample(at).filter(|_| is_between(at.x));
         match gauge.quantity {
             Quantity::Elevation => {

@@ -4,6 +4,7 @@
 
 use std::path::Path;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::simulation::flume::Simulation;
@@ -121,20 +122,24 @@ impl Column {
 }
 
 impl Frame {
-    /// Copies the current water: the fields and the box that the `output` section of the case requests.
+    /// Copies the current water of all regions, without their buffers: the fields and the box that the `output` section
+    /// of the case requests.
     pub fn of_water(simulation: &Simulation) -> Self {
-        let (water, output) = (&simulation.water, &simulation.case.output);
+        let output = &simulation.case.output;
+        let mut chosen: Vec<(&Water, Vec<u32>)> = Vec::new();
+        for region in simulation.regions() {
+            chosen.push((&region.water, particles_in(region, output.fluid_box)));
+        }
         let tait = simulation.solver().parameters().tait;
-        let chosen = particles_in(water, output.fluid_box);
         let column = |field: &FluidField| match field {
-            FluidField::Velocity => Column::Vector(pick(&chosen, |i| water.velocity[i].as_vec3().to_array())),
-            FluidField::Pressure => Column::Scalar(pick(&chosen, |i| tait.pressure(water.density[i]) as f32)),
-            FluidField::Density => Column::Scalar(pick(&chosen, |i| water.density[i] as f32)),
-            FluidField::Id => Column::Integer(pick(&chosen, |i| water.id[i] as i32)),
+            FluidField::Velocity => Column::Vector(pick(&chosen, |water, i| water.velocity[i].as_vec3().to_array())),
+            FluidField::Pressure => Column::Scalar(pick(&chosen, |water, i| tait.pressure(water.density[i]) as f32)),
+            FluidField::Density => Column::Scalar(pick(&chosen, |water, i| water.density[i] as f32)),
+            FluidField::Id => Column::Integer(pick(&chosen, |water, i| water.id[i] as i32)),
         };
         Self {
             time: simulation.flume_time(),
-            points: pick(&chosen, |i| water.position[i].as_vec3().to_array()),
+            points: pick(&chosen, |water, i| water.position[i].as_vec3().to_array()),
             triangles: Vec::new(),
             fields: output.fluid_fields.iter().map(column).collect(),
         }
@@ -167,20 +172,25 @@ impl Frame {
     }
 }
 
-/// Returns the indices of the particles inside a box [m], or the indices of all particles if there is no box.
-fn particles_in(water: &Water, corners: Option<[[f64; 3]; 2]>) -> Vec<u32> {
-    let all = 0..water.len() as u32;
-    let Some([low, high]) = corners.map(|corners| corners.map(glam::DVec3::from_array)) else { return all.collect() };
+/// Returns the indices of the particles of a region that are inside a box [m], or everywhere if there is no box, but not
+/// in the buffers of the region.
+fn particles_in(region: &Simulation, corners: Option<[[f64; 3]; 2]>) -> Vec<u32> {
+    let corners = corners.unwrap_or([[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]]).map(DVec3::from_array);
+    let (position, [from, to]) = (&region.water.position, region.own_x());
     let inside = |&i: &u32| {
-        let position = water.position[i as usize];
-        position.cmpge(low).all() && position.cmple(high).all()
+        let place = position[i as usize];
+        (from..to).contains(&place.x) && place.cmpge(corners[0]).all() && place.cmple(corners[1]).all()
     };
-    all.into_par_iter().with_min_len(4096).filter(inside).collect()
+    (0..position.len() as u32).into_par_iter().with_min_len(4096).filter(inside).collect()
 }
 
-/// Returns `value` of each particle whose index is in `chosen`, in the same order.
-fn pick<T: Send>(chosen: &[u32], value: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    chosen.par_iter().with_min_len(4096).map(|&i| value(i as usize)).collect()
+/// Returns `value` of each of the `chosen` particles of each region, in the same order.
+fn pick<T: Send>(chosen: &[(&Water, Vec<u32>)], value: impl Fn(&Water, usize) -> T + Sync) -> Vec<T> {
+    let mut values = Vec::with_capacity(chosen.iter().map(|(_, chosen)| chosen.len()).sum());
+    for (water, chosen) in chosen {
+        values.par_extend(chosen.par_iter().with_min_len(4096).map(|&i| value(water, i as usize)));
+    }
+    values
 }
 
 #[cfg(test)]

@@ -64,14 +64,16 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
     Ok(summary)
 }
 
+/// Counts the particles of all regions, with their buffers.
 fn particle_counts(simulation: &Simulation) -> ParticleCounts {
-    let boundary = &simulation.boundary;
-    ParticleCounts {
-        water: simulation.water.len() as u64,
-        bed: boundary.pistons().start as u64,
-        wavemaker: boundary.pistons().len() as u64,
-        units: (boundary.len() - boundary.walls().end) as u64,
+    let mut counts = ParticleCounts::default();
+    for Simulation { water, boundary, .. } in simulation.regions() {
+        counts.water += water.len() as u64;
+        counts.bed += boundary.pistons().start as u64;
+        counts.wavemaker += boundary.pistons().len() as u64;
+        counts.units += (boundary.len() - boundary.walls().end) as u64;
     }
+    counts
 }
 
 fn wave(case: &Case) -> Option<WaveSummary> {

@@ -133,7 +133,7 @@ impl Simulation {
         let t = self.flume_time();
         let mut ends = std::mem::take(&mut self.ends);
         for end in &mut ends {
-            end.absorb(&self.sampler(), &self.case, self.flume.as_ref(), t, dt);
+            end.absorb(&self.sampler(), &self.case, self.flume.as_deref(), t, dt);
         }
         self.ends = ends;
     }

@@ -148,15 +148,20 @@ pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
     MlPiston::from_record(record, case.domain.x[0], &rows, [start, end], interval, drawn_back)
 }
 
-/// Returns the moving ends of the particle domain: none, the wavemaker, or two open ends.
+/// Returns the moving ends of the particle domain, or of a region of it: none, the wavemaker, or open ends. An end where
+/// water of another region continues does not move.
 pub(crate) fn ends(case: &Case, flume: Option<&FlumeRecord>, start: f64) -> Vec<MovingEnd> {
+    let [seaward, shoreward] = case.domain.continues.map(|continues| !continues);
     match (case.wavemaker, flume) {
         (case::Wavemaker::OpenEnds { gauge }, Some(record)) => {
             let open = |x: f64, inwards: f64| {
                 MovingEnd::open(Wavemaker::MlPiston(open_end(case, record, start, x, gauge)), inwards, case.domain.dp)
             };
-            vec![open(case.domain.x[0], 1.0), open(case.domain.x[1], -1.0)]
+            let [from, to] = case.domain.x;
+            let ends = [seaward.then(|| open(from, 1.0)), shoreward.then(|| open(to, -1.0))];
+            ends.into_iter().flatten().collect()
         }
+        _ if !seaward => Vec::new(),
         _ => wavemaker(case, flume, start).map(MovingEnd::wavemaker).into_iter().collect(),
     }
 }
