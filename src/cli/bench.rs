@@ -121,6 +121,10 @@ impl BenchArguments {
         let InputFile::Flume(case) = load(path, &[InputKind::Flume])? else {
             unreachable!("only flume cases are loaded")
         };
+        if case.domain.regions.len() > 1 {
+            let what = "bench compares the time steps of a case without domain.fine_x_m; remove this key";
+            return Err(CommandError::refused(format!("{}: {what}", path.display())));
+        }
         let case: Arc<Case> = Arc::from(case);
         let mut measurements = Vec::new();
         for count in 1..=threads {

@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::coupling::Column;
+use crate::case::Sides;
 use crate::simulation::flume::Simulation;
 
 /// Number of fields.
@@ -34,22 +34,14 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// Interpolates the fields of the `water` of a region. The lattice extends over `columns` of the given `size` [m];
-    /// `number` has the number of columns along x and y. The first corner of the columns is `low` [m].
-    pub fn new(
-        water: &Simulation,
-        columns: &[Option<Column>],
-        low: DVec2,
-        size: DVec2,
-        number: [usize; 2],
-        periodic: bool,
-    ) -> Self {
+    /// Interpolates the fields of the `water` of a region, up to the level `highest` [m]. The lattice extends over
+    /// columns of the given `size` [m]; `number` has their numbers along x and y, and `low` is their first corner [m].
+    pub fn new(water: &Simulation, highest: f64, low: DVec2, size: DVec2, number: [usize; 2]) -> Self {
         let profile = &water.case.flume.profile;
         let (step, [nx, ny]) = (size.extend(size.x), [number[0] + 1, number[1]]);
         let beds = (0..nx).map(|ix| profile.z(low.x + ix as f64 * size.x));
         let lowest = beds.fold(f64::INFINITY, f64::min);
-        let highest = columns.iter().flatten().map(|column| column.level).fold(lowest, f64::max);
-        let nz = ((highest - lowest) / step.z).ceil() as usize + 2;
+        let nz = ((highest - lowest).max(0.0) / step.z).ceil() as usize + 2;
         // Across the flume, the points are in the middle of the columns.
         let low = DVec3::new(low.x, 0.5 * size.y, lowest);
         let (sampler, rates) = (water.sampler(), water.solver().host_rates());
@@ -62,6 +54,7 @@ impl Lattice {
             })
         };
         let fields = (0..nx * ny * nz).into_par_iter().with_min_len(32).map(fields).collect();
+        let periodic = water.case.domain.sides == Sides::Periodic;
         Self { low, step, count: [nx, ny, nz], periodic, fields }
     }
 

@@ -10,10 +10,12 @@
 //! | --- | --- |
 //! | [`buffer`] | the buffer of a region: its particles, and its state in checkpoints |
 //! | `coupling` | buffers take their state from the neighbouring region |
-//! | `lattice` | interpolation from the water of the neighbouring region |
+//! | `source` | the water of the neighbouring region, as a buffer sees it |
+//! | `lattice` | its velocity, density and their rates on a lattice of points |
 //! | `inflow` | particles enter and leave a buffer at its outer edge; mass that crosses the interface |
 
 pub mod buffer;
 mod coupling;
 mod inflow;
 mod lattice;
+mod source;
