@@ -6,8 +6,8 @@ use crate::case::reading::check::{Checker, as_text, lower_limit};
 /// Largest number of ranges of fine water. With each range, the spacing doubles outside it.
 const MOST_RANGES: usize = 2;
 
-/// Shortest length of a region, divided by its particle spacing [-]. Its buffers (see [`Region::buffer`]) must fit
-/// between its ends.
+/// Shortest length of a range of fine water, and of a region of coarser water beside it, divided by the spacing of the
+/// coarser water [-]. The buffers of the neighbouring regions (see [`Region::buffer`]) must fit between its ends.
 const SHORTEST: f64 = 16.0;
 
 /// A part of the particle domain along the flume with one particle spacing; SI units.
@@ -128,7 +128,7 @@ fn validate_range(
                 as_text(around[1]),
                 lower_limit(least)
             ),
-            "a region of coarser water must be at least 16 of its particle spacings long",
+            format!("a region of coarser water must be at least {SHORTEST} of its particle spacings long"),
         );
         return None;
     }

@@ -1,6 +1,6 @@
 //! The buffer of a region beyond an interface with another region.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use crate::case::{Case, Region};
@@ -41,7 +41,7 @@ pub(super) struct Flow {
     /// Share of the cell below the free surface [-].
     pub share: f64,
     /// Velocity [m/s].
-    pub velocity: glam::DVec3,
+    pub velocity: DVec3,
     /// Density [kg/m3].
     pub density: f64,
 }
