@@ -213,6 +213,6 @@ fn print(measured: &Measurement) {
         100.0 * measured.share_of_bandwidth
     );
     for phase in &measured.phases {
-        println!("  {:<20}{:5.1} %{:9.0} ns per particle", phase.name, 100.0 * phase.share, phase.ns_per_particle);
+        println!("  {:<20}{:5.1} %{:9.2} ns per particle", phase.name, 100.0 * phase.share, phase.ns_per_particle);
     }
 }
