@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, counted, input::load, run};
+use super::{CommandError, counted, input::load, run, savings::savings};
 use crate::{
     case::{
         BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Reference, Sides,
@@ -88,6 +88,7 @@ fn check_flume(case: &Case, path: &Path) -> Result<(), CommandError> {
     let times = check_times(case, particle_start(case, None))
         .map_err(|reason| CommandError::refused(format!("{}: {reason}", path.display())));
     print(case);
+    print_savings(case, path);
     let Some(units) = &case.units else { return times };
     let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
     times.and(check_overlap(setup, units, path))
@@ -191,6 +192,13 @@ fn print(case: &Case) {
         estimate.dt, case.fluid.sound_speed, estimate.steps, case.stop.duration
     );
     println!("  run time    about {} on {cores} cores", readable(seconds));
+}
+
+fn print_savings(case: &Case, path: &Path) {
+    for (number, saving) in savings(case, path).iter().enumerate() {
+        let label = if number == 0 { "savings" } else { "" };
+        println!("  {label:<12}{:.0} % of the run time with {}", 100.0 * saving.share, saving.keys);
+    }
 }
 
 fn print_units(units: &Units) {

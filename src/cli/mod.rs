@@ -16,6 +16,7 @@ mod machine;
 mod place;
 mod report;
 mod run;
+mod savings;
 mod schema;
 mod sweep;
 mod unit;

@@ -68,7 +68,7 @@ pub struct RigidWorld {
     pub(super) search_distance: f64,
     /// Upper bound of the distance that the surface of each body has moved since `pairs` was built [m].
     pub(super) path: Vec<f64>,
-    /// Distance that the surface of each body can move within the horizon (`Substep::horizon`) at twice its speed [m].
+    /// Distance that the surface of each body can move in the longest substep at twice its speed [m].
     pub(super) margin: Vec<f64>,
 }
 
@@ -109,7 +109,7 @@ impl RigidWorld {
             path: vec![0.0; count],
             margin: vec![0.0; count],
         };
-        world.update_contacts(0.0, 0.0, &vec![DVec3::ZERO; count], &vec![DVec3::ZERO; count])?;
+        world.update_contacts(0.0, &vec![DVec3::ZERO; count], &vec![DVec3::ZERO; count])?;
         world.update_results();
         Ok(world)
     }
@@ -199,7 +199,7 @@ impl RigidWorld {
         let mut left = dt;
         while left > 0.0 {
             let h = self.substep_length(left);
-            self.substep(h, left, loads)?;
+            self.substep(h, loads)?;
             for (sum, now) in impulse.iter_mut().zip(&self.contact_now) {
                 sum.force += now.force * h;
                 sum.torque += now.torque * h;
@@ -221,7 +221,7 @@ impl RigidWorld {
         left / (left / longest).ceil().max(1.0)
     }
 
-    fn substep(&mut self, h: f64, left: f64, loads: &[Load]) -> Result<(), RigidError> {
+    fn substep(&mut self, h: f64, loads: &[Load]) -> Result<(), RigidError> {
         let old = self.accelerations(loads);
         self.kick(&old, 0.5 * h);
         self.drift(h);
@@ -231,7 +231,7 @@ impl RigidWorld {
         self.kick(&old, 0.5 * h);
         self.time += h;
         self.check_finite()?;
-        self.update_contacts(h, left.min(LONGEST_SUBSTEP), &linear_mid, &angular_mid)?;
+        self.update_contacts(h, &linear_mid, &angular_mid)?;
         // Replace the extrapolated velocity: the second half of the update uses the new acceleration.
         self.velocity.copy_from_slice(&linear_mid);
         let new = self.accelerations(loads);
@@ -290,9 +290,9 @@ impl RigidWorld {
     }
 
     /// Finds the contacts at the current positions and computes their forces.
-    fn update_contacts(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) -> Result<(), RigidError> {
+    fn update_contacts(&mut self, h: f64, linear: &[DVec3], angular: &[DVec3]) -> Result<(), RigidError> {
         self.angular_velocity = self.angular_velocities();
-        self.update_near_pairs(h, horizon, linear, angular);
+        self.update_near_pairs(h, linear, angular);
         let placements = Placements { rotation: &self.rotation, position: &self.position };
         let contact_points =
             self.surfaces.contact_points(&self.near, placements, &self.contacts, &self.margin, self.time)?;
@@ -300,7 +300,7 @@ impl RigidWorld {
             placements,
             now: Velocities { linear: &self.velocity, angular: &self.angular_velocity },
             mean: Velocities { linear, angular },
-            substep: Substep { dt: h, time: self.time, horizon },
+            substep: Substep { dt: h, time: self.time, horizon: LONGEST_SUBSTEP },
         };
         let evaluation =
             self.laws.evaluate(&contact_points, &self.contacts, &motion, &mut self.energy, &mut self.records);
@@ -311,13 +311,13 @@ impl RigidWorld {
     }
 
     /// Updates the list of part pairs that can be in contact after a substep `h` [s] with the given mean velocities.
-    fn update_near_pairs(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) {
+    fn update_near_pairs(&mut self, h: f64, linear: &[DVec3], angular: &[DVec3]) {
         let reach = self.surfaces.reach();
         for body in 0..self.position.len() {
             self.path[body] += PATH_SAFETY * h * (linear[body].length() + angular[body].length() * reach);
-            // The next substep length depends on all contacts that can start within the horizon at twice this speed.
+            // The next substep length depends on all contacts that can start within it at twice this speed.
             let speed = self.velocity[body].length() + self.angular_velocity[body].length() * reach;
-            self.margin[body] = 2.0 * speed * horizon;
+            self.margin[body] = 2.0 * speed * LONGEST_SUBSTEP;
         }
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let margin = 2.0 * largest(&self.margin);

@@ -36,7 +36,8 @@ pub struct GhostVelocities {
 struct VelocitySum([f32; 3]);
 
 impl GhostVelocities {
-    /// Computes the velocity at the ghost node of each boundary particle. Call it after [`GhostNodes::densities`].
+    /// Computes the velocity at the ghost node of each boundary particle at the start of a time step. Call it after
+    /// [`GhostNodes::densities`].
     pub fn compute(
         &mut self,
         nodes: &GhostNodes,
@@ -45,8 +46,8 @@ impl GhostVelocities {
         records: &[Record],
         boundary: &Boundary,
     ) {
-        let (bin_x, to_surface) = (grid.size.x as f32, &boundary.to_surface);
-        let GhostNodes { sums, split, lists, bins, .. } = nodes;
+        let GhostNodes { sums, bins, .. } = nodes;
+        let to_surface = &boundary.to_surface;
         self.weights.resize(sums.len(), [0.0; 4]);
         self.trust.resize(sums.len(), 0.0);
         (&mut self.weights, &mut self.trust, sums, &bins.order).into_par_iter().with_min_len(MIN_CHUNK).for_each(
@@ -55,7 +56,14 @@ impl GhostVelocities {
             },
         );
         self.sums.resize(sums.len(), VelocitySum::default());
-        sum_around_nodes(parameters, bin_x, split, &self.weights, lists, records, &mut self.sums);
+        self.update(nodes, grid, parameters, records);
+    }
+
+    /// Computes the velocities again from changed velocities of the water, with the weights of the last call of
+    /// [`Self::compute`].
+    pub fn update(&mut self, nodes: &GhostNodes, grid: &Grid, parameters: &Parameters, records: &[Record]) {
+        let GhostNodes { split, lists, .. } = nodes;
+        sum_around_nodes(parameters, grid.size.x as f32, split, &self.weights, lists, records, &mut self.sums);
     }
 
     /// Returns the velocity at the ghost node of a boundary particle; `None` if the node is dry or no velocities are

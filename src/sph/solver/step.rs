@@ -174,12 +174,17 @@ impl Solver {
         fill(of_units, &units.bins.order, boundary.walls().len());
     }
 
+    /// Returns true if the velocities of the boundary particles follow from the water at the ghost nodes.
+    fn mirrors_velocities(&self) -> bool {
+        self.parameters.boundary == BoundaryCondition::ModifiedDynamic && self.parameters.slip != WallSlip::Original
+    }
+
     /// Under mDBC, computes the boundary densities from the ghost nodes. Under DBC, the densities follow from the
     /// continuity equation and are not changed here. Then fills the records of the boundary particles.
     pub fn boundary_densities(&mut self, boundary: &mut Boundary) {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
-            if self.parameters.slip != WallSlip::Original {
+            if self.mirrors_velocities() {
                 let Self { ghosts, ghost_velocities, grid, parameters, records, .. } = self;
                 ghost_velocities.compute(ghosts, grid, parameters, records, boundary);
             }
@@ -256,6 +261,11 @@ impl Solver {
         let half = std::mem::take(&mut self.half);
         self.fill_water_records(State { mass: &water.mass, ..State::from_water(&half) });
         self.half = half;
+        if self.mirrors_velocities() {
+            // With the velocities of the start, sound waves near walls grow at Courant numbers from 0.3.
+            let Self { ghosts, ghost_velocities, grid, parameters, records, .. } = self;
+            ghost_velocities.update(ghosts, grid, parameters, records);
+        }
         let half_density = std::mem::take(&mut self.half_density);
         let from_nodes = self.parameters.boundary == BoundaryCondition::ModifiedDynamic;
         self.fill_boundary_records(boundary, if from_nodes { &boundary.density } else { &half_density });

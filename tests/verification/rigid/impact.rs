@@ -35,7 +35,8 @@ fn a_sphere_on_a_plane_follows_the_law_of_hertz() {
 fn restitution_equals_the_given_coefficient() {
     let mut worst: f64 = 0.0;
     for e in [0.3, 0.5, 0.8, 0.95, 1.0] {
-        for (speed, dt) in [(0.1, 1e-4), (1.0, 1e-4), (1.0, 2e-5)] {
+        // The time between two calls, here from 2e-5 to 1e-3 s, must not matter: it is the time step of the water.
+        for (speed, dt) in [(0.1, 1e-4), (1.0, 1e-4), (1.0, 2e-5), (1.0, 1e-3)] {
             let material = Material { restitution: e, ..MORTAR };
             let ball_at = |x: f64, v: f64| BodyState {
                 velocity: DVec3::X * v,
