@@ -66,12 +66,11 @@ fn in_words(change: &Change) -> String {
 /// Returns the changes that can save time.
 fn changes(case: &Case) -> Vec<Change> {
     let mut changes = Vec::new();
-    if let Some([low, high]) = case.units.as_ref().and_then(|units| {
-        let half = 0.5 * units.shape.height();
+    if let Some(units) = &case.units {
+        let (domain, height) = (&case.domain, units.shape.height());
         let x = || units.placements.iter().map(|pose| pose.centre.x);
-        Some([x().reduce(f64::min)? - half, x().reduce(f64::max)? + half])
-    }) {
-        let domain = &case.domain;
+        let low = x().fold(f64::INFINITY, f64::min) - 0.5 * height;
+        let high = x().fold(f64::NEG_INFINITY, f64::max) + 0.5 * height;
         let step = 10_f64.powf(domain.depth.log10().floor() - 1.0);
         let around = |below: f64, above: f64| {
             let rounded = [((low - below) / step).floor() * step, ((high + above) / step).ceil() * step];
@@ -85,7 +84,6 @@ fn changes(case: &Case) -> Vec<Change> {
             changes.push(vec![("wavemaker", json!({ "kind": "open_ends" })), ("domain.x_m", json!(x))]);
         }
         if domain.regions.len() == 1 {
-            let height = case.units.as_ref().map_or(0.0, |units| units.shape.height());
             let [seaward, shoreward] = ROOM.map(|room| FINE_MARGIN * domain.dp + room * height);
             changes.push(vec![("domain.fine_x_m", json!([around(seaward, shoreward)]))]);
         }
@@ -106,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slice_saves_time_in_three_ways_and_a_case_without_units_in_one() {
+    fn a_slice_saves_time_in_three_ways() {
         let found = of_file("fudo/H4.5-slice.json");
         let keys: Vec<&str> = found.iter().map(|saving| saving.keys.split([' ', ',']).next().unwrap()).collect();
         assert_eq!(keys, ["wavemaker", "domain.fine_x_m", "numerics.cfl", "all"]);

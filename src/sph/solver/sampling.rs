@@ -137,7 +137,7 @@ impl Sampler<'_> {
     /// Returns the level z of the free surface at (x, y) [m]: the highest level above `low` [m] at which the sum of W V
     /// falls to 1/2. Returns `None` if there is no such level.
     ///
-    /// The search starts above the highest particle, where the sum is zero, also if water stands above the walls.
+    /// The search starts h above the highest particle, where the sum is below 1/2, also if water stands above the walls.
     pub fn surface(&self, xy: DVec2, low: f64) -> Option<f64> {
         let (step, reach) = (0.25 * self.kernel.h, self.kernel.support());
         let column = self.near(xy.extend(0.0), 0..=self.grid.count[2] - 1);
@@ -145,7 +145,7 @@ impl Sampler<'_> {
         let highest = within.map(|(r, _)| r.z).fold(f64::NEG_INFINITY, f64::max);
         let occupied_at = |z: f64| self.occupied(xy.extend(z));
         // The cast gives 0 if there is no particle.
-        let count = ((highest + reach - low) / step).ceil() as u32;
+        let count = ((highest + self.kernel.h - low) / step).ceil() as u32;
         let mut above = 0.0;
         for z in (0..count).rev().map(|k| low + f64::from(k) * step) {
             let occupied = occupied_at(z);
