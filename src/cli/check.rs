@@ -29,7 +29,8 @@ const EVALUATIONS_PER_S_AND_CORE: f64 = 1.2e6;
 /// particle has only one sixth as many neighbours.
 const EVALUATIONS_IN_TWO_DIMENSIONS: f64 = 2.4e6;
 
-/// Validate input files, and estimate the number of particles, memory, file sizes, time step and run time.
+/// Validate input files; estimate the number of particles, memory, file sizes, time step and run time of a case, and say
+/// which changes of the case would save run time.
 #[derive(Args)]
 pub struct CheckArguments {
     /// Files to check: case files, sweep files, placement files, and reference folders (or their `reference.json`).

@@ -17,7 +17,7 @@ const FINE_MARGIN: f64 = 21.0;
 /// Room for the units to move within the fine water, seaward and shoreward, divided by their height [-].
 const ROOM: [f64; 2] = [2.0, 4.0];
 
-/// Largest Courant number that has been tested.
+/// Largest Courant number that has been tested with waves and units.
 const LARGEST_COURANT: f64 = 0.4;
 
 /// Smallest saving worth mentioning, as a share of the run time [-].

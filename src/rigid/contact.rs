@@ -55,6 +55,10 @@ pub struct ContactPoint {
     pub core: DVec3,
 }
 
+/// Longest substep [s]. Contacts that can start within this time also limit the length of the next substep, so that no
+/// contact starts with a large overlap. This does not depend on the time step of the water.
+pub const LONGEST_SUBSTEP: f64 = 1e-3;
+
 /// Substep over which an evaluation advances the contact history.
 #[derive(Debug, Clone, Copy)]
 pub struct Substep {
@@ -62,8 +66,6 @@ pub struct Substep {
     pub dt: f64,
     /// Time at the end of the substep [s].
     pub time: f64,
-    /// Longest possible next substep [s]. Contacts that can start within this time also limit the substep length.
-    pub horizon: f64,
 }
 
 /// An active contact with its history.

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::contact::{Contact, ContactKey, ContactPoint, Feature, Substep};
+use super::contact::{Contact, ContactKey, ContactPoint, Feature, LONGEST_SUBSTEP, Substep};
 use super::kinematics::{ContactMotion, Motion};
 use super::law::{ContactLaw, Material};
 use super::motion::Load;
@@ -99,7 +99,7 @@ impl Laws {
         energy.elastic = 0.0;
         for point in contact_points {
             let pair = ContactMotion::new(point, motion);
-            self.add_stiffness(&pair, substep, &mut stiffness);
+            self.add_stiffness(&pair, &mut stiffness);
             if point.overlap <= 0.0 {
                 continue;
             }
@@ -135,12 +135,11 @@ impl Laws {
     }
 
     /// Adds the stiffness [N/m] of a contact to the sum of each of its bodies. A contact that can start within the
-    /// horizon counts too.
-    fn add_stiffness(&self, pair: &ContactMotion, substep: Substep, stiffness: &mut [f64]) {
+    /// longest substep counts too.
+    fn add_stiffness(&self, pair: &ContactMotion, stiffness: &mut [f64]) {
         let (point, law) = (pair.point, self.law_of(pair.point.key.feature));
         let closing = (-pair.v_n).max(0.0);
-        let within_horizon = -point.overlap <= closing * substep.horizon;
-        if !within_horizon {
+        if -point.overlap > closing * LONGEST_SUBSTEP {
             return;
         }
         let expected = point.overlap.max(law.impact_overlap(closing));

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::contact::{Contact, Substep};
+use super::contact::{Contact, LONGEST_SUBSTEP, Substep};
 use super::error::RigidError;
 use super::forces::{Energy, Laws};
 use super::kinematics::{Motion, Velocities};
@@ -20,10 +20,6 @@ use super::setup::{RigidSetup, Sides};
 /// Number of substeps in the shortest oscillation period of a body on its contact springs [-]. With 80 substeps, the
 /// restitution of an impact is accurate to 1e-3 (see the tests). An impact lasts about two thirds of this period.
 const STEPS_PER_PERIOD: f64 = 80.0;
-
-/// Longest substep [s]. The contact search covers everything that a body can reach within this time at twice its speed.
-/// Therefore no contact starts with a large overlap.
-const LONGEST_SUBSTEP: f64 = 1e-3;
 
 /// Safety factor on the distance that a surface moves in a substep [-]. A body can rotate slightly faster at one end of
 /// the substep than on average.
@@ -300,7 +296,7 @@ impl RigidWorld {
             placements,
             now: Velocities { linear: &self.velocity, angular: &self.angular_velocity },
             mean: Velocities { linear, angular },
-            substep: Substep { dt: h, time: self.time, horizon: LONGEST_SUBSTEP },
+            substep: Substep { dt: h, time: self.time },
         };
         let evaluation =
             self.laws.evaluate(&contact_points, &self.contacts, &motion, &mut self.energy, &mut self.records);
@@ -315,7 +311,7 @@ impl RigidWorld {
         let reach = self.surfaces.reach();
         for body in 0..self.position.len() {
             self.path[body] += PATH_SAFETY * h * (linear[body].length() + angular[body].length() * reach);
-            // The next substep length depends on all contacts that can start within it at twice this speed.
+            // The search covers everything that the body can reach in the longest substep at twice its speed.
             let speed = self.velocity[body].length() + self.angular_velocity[body].length() * reach;
             self.margin[body] = 2.0 * speed * LONGEST_SUBSTEP;
         }

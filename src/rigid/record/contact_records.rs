@@ -113,7 +113,7 @@ impl RecordedContact {
 
     /// Adds the mean of the forces at the start and the end of a substep to the impulse and the force history.
     fn add_force(&mut self, before: DVec3, now: DVec3, substep: Substep) {
-        let Substep { dt, time, .. } = substep;
+        let Substep { dt, time } = substep;
         let force = 0.5 * (before + now);
         self.event.impulse = (DVec3::from_array(self.event.impulse) + force * dt).to_array();
         self.history.add(time - dt, dt, force);

@@ -217,7 +217,8 @@ impl PreparedStep<'_> {
         Ok(self.simulation.sampler())
     }
 
-    /// Returns the current powers that the water of all regions receives from boundaries, viscosity and density diffusion [W].
+    /// Returns the current powers that the water of all regions receives from boundaries, viscosity and density diffusion
+    /// [W].
     ///
     /// # Errors
     /// If the device is lost.
@@ -235,8 +236,8 @@ impl PreparedStep<'_> {
     /// leave the buffers between the regions.
     ///
     /// # Errors
-    /// If a particle has left the domain or has an impossible density, if units overlap each other or the bed too much, if
-    /// a unit has reached the end of the finest region, or if the device is lost.
+    /// If a particle has left the domain or has an impossible density, if units overlap each other or the bed too much,
+    /// if a unit has reached the end of the finest region, or if the device is lost.
     pub fn finish(self) -> Result<(), Failure> {
         let (simulation, dt) = (self.simulation, self.dt);
         if simulation.coarse.is_empty() {
