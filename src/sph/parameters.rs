@@ -62,7 +62,7 @@ impl Parameters {
             diffusion: Diffusion::new(DensityDiffusion::Fourtakas, 0.1, h, &tait, gravity),
             own_x: [f64::NEG_INFINITY, f64::INFINITY],
             gravity,
-            cfl: 0.2,
+            cfl: 0.4,
             boundary: BoundaryCondition::ModifiedDynamic,
             slip: WallSlip::Original,
             gap_pressure: true,

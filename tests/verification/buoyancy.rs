@@ -1,7 +1,7 @@
 //! Buoyancy of a Tetrapod by Archimedes' law: on the bed or above it, submerged or half submerged.
 
 use breakwater::geometry::armour_unit::ArmourUnit;
-use breakwater::simulation::flume::setup::particles_of;
+use breakwater::simulation::flume::unit_setup::particles_of;
 use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
 

@@ -72,7 +72,7 @@ fn an_absorbing_multi_layer_piston_does_not_reflect_the_wave() {
     // Reached: the crest of the incident wave in the particles differs by 0.3 % from the flume model. Limit 8 %: the
     // reading may include the start of the reflected wave.
     assert!((first / flume - 1.0).abs() < 0.08);
-    // Limit for the wave after reflection by wall and piston: 10 % of the incident crest. Reached: 5.2 %, which is a
+    // Limit for the wave after reflection by wall and piston: 10 % of the incident crest. Reached: 5.0 %, which is a
     // fifth of a particle spacing.
     assert!((-first..0.1 * first).contains(&rereflected));
 }

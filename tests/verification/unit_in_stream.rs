@@ -4,7 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use breakwater::geometry::armour_unit::ArmourUnit;
-use breakwater::simulation::flume::setup::particles_of;
+use breakwater::simulation::flume::unit_setup::particles_of;
 use breakwater::sph::{
     parameters::BoundaryCondition::{self, Dynamic, ModifiedDynamic},
     terms::{viscosity::Viscosity, wall_slip::WallSlip},

@@ -108,7 +108,7 @@ fn duct_flow_with_lo_and_shao_equals_the_exact_solution() {
 
 #[test]
 fn duct_flow_with_monaghan_and_gingold_equals_the_exact_solution() {
-    // Reached: errors of 2.65 % with 20 particles per side and 2.4 % with 28. The walls make the flow too slow by about
+    // Reached: errors of 2.84 % with 20 particles per side and 2.4 % with 28. The walls make the flow too slow by about
     // 2.7 and 1.9 % respectively. The viscosity sum over the particles adds errors of 0.1 and 0.5 % respectively, or
     // 1.1 % in the limit of small dp at this h / dp.
     // For Lo & Shao, the error of this sum is -1.4 % with 20 particles per side and partly cancels the error of the

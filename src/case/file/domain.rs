@@ -21,7 +21,8 @@ pub struct DomainFile {
     /// Particle spacing dp [m].
     pub dp_m: f64,
     /// Ranges of x with fine water, from the innermost to the outermost, at most two [m]. Inside the first range, the
-    /// particle spacing is `dp_m`. Outside the first range it is 2 `dp_m`, and outside the second range 4 `dp_m`.
+    /// particle spacing is `dp_m`. Outside the first range it is 2 `dp_m`, and outside the second range 4 `dp_m`. The
+    /// ranges follow the units.
     // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fine_x_m: Vec<[f64; 2]>,

@@ -56,7 +56,7 @@ impl Default for NumericsFile {
             density_diffusion: DensityDiffusion::Fourtakas,
             diffusion_delta: 0.1,
             shifting_coefficient: 0.0,
-            cfl: 0.2,
+            cfl: 0.4,
             boundary: Boundary::Mdbc,
             wall_slip: None,
             slip_on_units: false,

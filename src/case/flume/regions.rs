@@ -22,6 +22,31 @@ pub struct Region {
 }
 
 impl Region {
+    /// Returns the regions after the ends of the finest region have moved by `moved` [m]. All interfaces on the same side
+    /// of the finest region move with its end; the ends of the domain stay.
+    pub fn moved(regions: &[Self], moved: [f64; 2]) -> Vec<Self> {
+        let finest = regions[0].x;
+        let of_region = |region: &Self| {
+            let end = |end: usize| match (region.continues[end], region.x[end]) {
+                (false, x) => x,
+                (true, x) if x <= finest[0] => x + moved[0],
+                (true, x) => x + moved[1],
+            };
+            Self { x: [end(0), end(1)], ..*region }
+        };
+        regions.iter().map(of_region).collect()
+    }
+
+    /// Returns how far both ends of the finest region can move outwards [m]; 0 at an end of the domain. `dp` is the
+    /// particle spacing of the finest region [m].
+    pub fn room(regions: &[Self], dp: f64) -> [f64; 2] {
+        [0, 1].map(|end| {
+            let is_outermost = |region: &&Self| region.continues[1 - end] && !region.continues[end];
+            let Some(outermost) = regions.iter().skip(1).find(is_outermost) else { return 0.0 };
+            outermost.x[1] - outermost.x[0] - SHORTEST * f64::from(outermost.coarseness) * dp
+        })
+    }
+
     /// Returns the width of a buffer [m]: water beyond an end that takes its state from the neighbouring region. It is
     /// as wide as two kernel radii 2h, so that sums over the neighbours of the particles that act on the water of the
     /// region are complete, and one particle wider, because its outermost layer is incomplete.
@@ -202,6 +227,21 @@ mod tests {
             sorted.iter().map(|region| region.continues).collect::<Vec<_>>(),
             [[false, true], [true, true], [true, true], [true, true], [true, false]]
         );
+    }
+
+    #[test]
+    fn interfaces_move_with_the_ends_of_the_finest_region() {
+        let (regions, _) = regions([1.0, 7.005], &[[3.003, 4.0], [2.0, 5.0]]);
+        let mut moved = Region::moved(&regions, [-0.2, 0.4]);
+        assert_eq!(moved[0].x, [regions[0].x[0] - 0.2, regions[0].x[1] + 0.4]);
+        moved.sort_by(|a, b| a.x[0].total_cmp(&b.x[0]));
+        assert_eq!([moved[0].x[0], moved[4].x[1]], [1.0, 7.005]);
+        for pair in moved.windows(2) {
+            assert_eq!(pair[0].x[1], pair[1].x[0]);
+        }
+        // The outermost regions, 1.0 m and 2.0 m long, keep at least 16 of their spacings of 0.04 m.
+        let room = Region::room(&regions, 0.01);
+        assert!((room[0] - 0.36).abs() < 0.02 && (room[1] - 1.36).abs() < 0.02, "{room:?}");
     }
 
     #[test]

@@ -97,12 +97,15 @@ pub enum Failure {
         place.x, place.y, place.z
     )]
     UnitNotFinite { time: f64, step: u64, unit: usize, place: DVec3, speed: f64 },
-    /// A unit has reached the end of the finest region.
+    /// A unit has reached the end of the finest region, which is as near to the end of the domain as possible.
     #[error(
-        "after {time:.4} s (step {step}): unit {unit} at ({:.3}, {:.3}, {:.3}) has reached the end of the fine water; \
-         extend domain.fine_x_m[0]", place.x, place.y, place.z
+        "after {time:.4} s (step {step}): unit {unit} at ({:.3}, {:.3}, {:.3}) has reached the end of the fine water, \
+         which cannot follow it further; move domain.x_m outwards, or leave out domain.fine_x_m", place.x, place.y, place.z
     )]
     LeftFineWater { time: f64, step: u64, unit: usize, place: DVec3 },
+    /// The regions of different particle spacing cannot move.
+    #[error("the fine water cannot follow the units: {0}")]
+    Regions(String),
     /// The device that computes the water has failed.
     #[error(transparent)]
     Device(#[from] DeviceError),

@@ -3,9 +3,11 @@
 //! | entry | what it does |
 //! | --- | --- |
 //! | [`setup`], [`scheme`] | set-up of the simulation, and SPH parameters, from a case |
+//! | [`unit_setup`] | the same for the units and the water beside them |
 //! | [`step`] | one time step, in the order of the algorithm |
 //! | [`run`] | the run of a case: outputs, checkpoints, rest criterion |
 //! | [`branch`] | runs that begin at the checkpoint of another run |
+//! | `follow` | the regions of different particle spacing move with the units |
 //! | [`failure`] | failures of a time step: cause, position, advice |
 //! | `diagnostics` | rows of `diagnostics.csv`, and warnings if the water is too fast |
 //! | `impermeable` | impermeable surfaces: no water particle flows into a solid |
@@ -17,6 +19,7 @@
 pub mod branch;
 mod diagnostics;
 pub mod failure;
+mod follow;
 mod impermeable;
 pub mod measures;
 pub mod outputs;
@@ -25,6 +28,7 @@ pub mod run;
 pub mod scheme;
 pub mod setup;
 pub mod step;
+pub mod unit_setup;
 pub mod wave;
 
 use std::sync::Arc;
@@ -53,6 +57,8 @@ pub struct Simulation {
     pub case: Arc<Case>,
     /// Simulations of the coarser regions, if any.
     pub coarse: Vec<Simulation>,
+    /// How far the ends of the finest region have moved with the units since the start [m].
+    pub moved: [f64; 2],
     /// Buffers beyond the ends where other regions continue, if any.
     pub buffers: Vec<Buffer>,
     /// Recorded flow of the flume model; `None` if the wave does not come from the flume model.

@@ -68,14 +68,14 @@ pub fn unsupported_on_gpu(case: &Case) -> Option<&'static str> {
     if case.domain.damping_zone.is_some() || case.domain.relaxation_zone.is_some() {
         return Some("damping and relaxation zones (domain.damping_zone, domain.relaxation_zone)");
     }
+    if matches!(case.wavemaker, case::Wavemaker::OpenEnds { .. }) {
+        return Some("open ends (wavemaker.kind = \"open_ends\")");
+    }
     if case.wavemaker.absorption_gauge().is_some() {
         return Some("active absorption by the wavemaker (wavemaker.absorption_gauge_m)");
     }
     if case.domain.regions.len() > 1 {
         return Some("regions of different particle spacing (domain.fine_x_m)");
-    }
-    if matches!(case.wavemaker, case::Wavemaker::OpenEnds { .. }) {
-        return Some("open ends (wavemaker.kind = \"open_ends\")");
     }
     backend::unsupported_on_gpu(&parameters(case))
 }

@@ -8,19 +8,19 @@ use thiserror::Error;
 use super::{
     Simulation, Units,
     impermeable::bins_near_surfaces,
-    measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts},
+    measures::statistics::Statistics,
     regions::buffer::Buffer,
     scheme::{parameters, tait},
+    unit_setup::{clear_units, set_up_units, unit_in_place},
     wave::{
         ends::MovingEnd,
         incoming::{crest_time, ends, particle_start, run_flume},
     },
 };
-use crate::simulation::bodies::rigid_setup;
 use crate::{
-    case::{self, Case},
-    geometry::{armour_unit::ArmourUnit, profile::Profile},
-    rigid::{Load, RigidError, RigidWorld},
+    case::{self, Case, Region},
+    geometry::profile::Profile,
+    rigid::RigidError,
     sph::{
         device::Device,
         particles::{
@@ -28,17 +28,13 @@ use crate::{
             boundary::{Boundary, BoundaryParticle},
             fill::{Basin, clear_solid},
             obstacle::{box_particles, cover},
-            unit::{MIN_DEPTH, unit_particles},
+            unit::MIN_DEPTH,
             water::Water,
         },
         solver::backend::DeviceError,
     },
     waves::{flume_model::FlumeError, flume_model::record::FlumeRecord, generation::wavemaker::Wavemaker},
 };
-
-/// Narrowest gap between a unit and its periodic image that water can pass, divided by the particle spacing [-]. A
-/// narrower gap has no room for water particles.
-const NARROWEST_GAP: f64 = 0.5;
 
 /// Largest number of particles of one region. Particles of different regions have different identification numbers.
 const IDS_PER_REGION: u32 = 1 << 29;
@@ -97,23 +93,42 @@ impl Simulation {
     /// # Errors
     /// As for [`Self::new`], and if the device does not support the scheme of the case or has too little memory.
     pub fn on(device: &Device, case: Arc<Case>) -> Result<Self, SetupError> {
-        Self::starting_at(device, case, None)
+        let flume = run_flume(&case)?.map(Arc::new);
+        let start = particle_start(&case, flume.as_deref());
+        Self::in_regions(device, case, flume, start, [0.0; 2])
     }
 
-    /// Sets up the simulation as [`Self::on`]; the particles start at the flume time `start` [s], if given.
-    pub(super) fn starting_at(device: &Device, case: Arc<Case>, start: Option<f64>) -> Result<Self, SetupError> {
+    /// Sets up the simulation as [`Self::on`]; the particles start at the flume time `start` [s], and the ends of the
+    /// finest region have moved by `moved` [m].
+    pub(super) fn starting_at(
+        device: &Device,
+        case: Arc<Case>,
+        start: f64,
+        moved: [f64; 2],
+    ) -> Result<Self, SetupError> {
         let flume = run_flume(&case)?.map(Arc::new);
-        let start = start.unwrap_or_else(|| particle_start(&case, flume.as_deref()));
+        Self::in_regions(device, case, flume, start, moved)
+    }
+
+    /// Sets up the simulation as [`Self::starting_at`], with the record of the flume model.
+    pub(super) fn in_regions(
+        device: &Device,
+        case: Arc<Case>,
+        flume: Option<Arc<FlumeRecord>>,
+        start: f64,
+        moved: [f64; 2],
+    ) -> Result<Self, SetupError> {
         check_times(&case, start)?;
-        let regions = &case.domain.regions;
+        let regions = Region::moved(&case.domain.regions, moved);
         let region = |number: usize| -> Result<Self, SetupError> {
             let of_region = Arc::new(case.of_region(&regions[number]));
-            let buffers = Buffer::of_region(&regions[number], regions, &of_region);
+            let buffers = Buffer::of_region(&regions[number], &regions, &of_region);
             Self::of_region(device, of_region, flume.clone(), start, number as u32, buffers)
         };
         let mut simulation = region(0)?;
         simulation.coarse = (1..regions.len()).map(region).collect::<Result<_, _>>()?;
         simulation.case = case.clone();
+        simulation.moved = moved;
         Ok(simulation)
     }
 
@@ -166,6 +181,7 @@ impl Simulation {
             bounds: allowed,
             case,
             coarse: Vec::new(),
+            moved: [0.0; 2],
             buffers,
             flume,
             water,
@@ -208,7 +224,7 @@ fn check_travel(case: &Case, wavemaker: &Wavemaker) -> Result<(), SetupError> {
     if place + travel < toe { Ok(()) } else { Err(SetupError::WavemakerReachesMound { place, travel, toe }) }
 }
 
-fn across(case: &Case) -> Across {
+pub(super) fn across(case: &Case) -> Across {
     Across { width: case.domain.width, count: case.domain.ny as u32, walls: case.domain.sides == case::Sides::Walls }
 }
 
@@ -302,7 +318,7 @@ fn end_particles(case: &Case, across: &Across, end: &MovingEnd) -> Vec<(u32, Bou
     particles
 }
 
-fn basin<'a>(
+pub(super) fn basin<'a>(
     case: &Case,
     across: &Across,
     bed: &'a dyn Fn(f64) -> f64,
@@ -326,79 +342,4 @@ fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -
     };
     let velocity = |x: f64, z: f64| flume.map_or(DVec2::ZERO, |record| record.velocity(x, z, start).into());
     basin(case, across, &bed, &surface, &velocity).fill(&tait(case))
-}
-
-/// Returns the units at their start positions.
-fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
-    let shape = units.shape.unit().clone();
-    let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
-    let start = setup.bodies.clone();
-    let world = RigidWorld::new(setup)?;
-    let (fluid_loads, mean_loads) = (vec![Load::default(); start.len()], MeanLoads::new(start.len()));
-    Ok(Units { shape, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
-}
-
-/// Returns the boundary particles of a unit in body axes; in two dimensions, those of a slice of the unit. If a cuboid
-/// fills the width of a periodic flume, its side faces touch its periodic images. The vectors `to_surface` of its
-/// boundary particles then never point to these faces.
-fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
-    let case::Domain { dp, width, sides, .. } = case.domain;
-    let mut particles = match (shape.as_box(), sides) {
-        (Some(bounds), case::Sides::TwoDimensional) => box_particles(&bounds.slice(width), dp, f64::INFINITY),
-        (Some(bounds), case::Sides::Periodic) if width - bounds.edges().y < NARROWEST_GAP * dp => {
-            box_particles(&bounds.with_closed_sides(), dp, f64::INFINITY)
-        }
-        _ => particles_of(shape, dp),
-    };
-    particles.iter_mut().for_each(|particle| particle.allows_free_slip = case.numerics.slip_on_units);
-    particles
-}
-
-/// Returns the boundary particles of a unit in body axes, for the particle spacing `dp` [m].
-pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
-    if let Some(bounds) = shape.as_box() {
-        return box_particles(&bounds, dp, f64::INFINITY);
-    }
-    let solid = shape.solid();
-    let [low, high] = solid.bounds();
-    unit_particles(|point| solid.project(point), low, high, solid.volume_properties().volume, dp)
-}
-
-/// Removes the water particles inside the units and their periodic images. Moves other particles outwards if they are
-/// too near to the surface of a unit.
-fn clear_units(water: &mut Water, units: &Units, case: &Case) {
-    let (solid, least) = (units.shape.solid(), MIN_DEPTH * case.domain.dp);
-    let reach = solid.bounds().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max) * 2.0 + least;
-    let images = if case.domain.sides == case::Sides::Periodic { vec![-1.0, 0.0, 1.0] } else { vec![0.0] };
-    for state in units.states() {
-        for image in &images {
-            let centre = state.position + DVec3::Y * (image * case.domain.width);
-            clear_solid(water, least, |point| {
-                let from_centre = point - centre;
-                if from_centre.length_squared() > reach * reach {
-                    return (point, f64::INFINITY);
-                }
-                let (nearest, distance) = solid.project(state.rotation.inverse() * from_centre);
-                (centre + state.rotation * nearest, distance)
-            });
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn units_have_free_slip_only_if_the_case_sets_slip_on_units() {
-        let given = include_str!("../../../cases/fudo/H4.5-slice.json");
-        for slides in [false, true] {
-            let wanted = format!(r#""wall_slip": "free_slip", "slip_on_units": {slides}"#);
-            let text = given.replace(r#""wall_slip": "original""#, &wanted);
-            let case = Case::from_str(&text, "cases/fudo/test.json").unwrap_or_else(|errors| panic!("{errors}"));
-            let units = case.units.as_ref().expect("the slice has two units");
-            let particles = unit_in_place(units.shape.unit(), &case);
-            assert!(!particles.is_empty() && particles.iter().all(|particle| particle.allows_free_slip == slides));
-        }
-    }
 }

@@ -46,8 +46,7 @@ impl Simulation {
     /// # Errors
     /// If a rate is not finite, or the device is lost.
     pub fn begin_step(&mut self) -> Result<PreparedStep<'_>, Failure> {
-        self.evaluate();
-        self.coarse.iter_mut().for_each(Self::evaluate);
+        self.evaluate_regions();
         let mut dt = self.longest_step()?;
         if !self.coarse.is_empty() {
             dt *= STEPS_PER_COARSE_STEP;
@@ -60,6 +59,11 @@ impl Simulation {
             self.sum_unit_loads(0.0)?;
         }
         Ok(PreparedStep { simulation: self, dt, is_fetched: false })
+    }
+
+    /// Evaluates the current state of all regions.
+    pub(super) fn evaluate_regions(&mut self) {
+        self.for_each_region(|_, region| region.evaluate());
     }
 
     /// Evaluates the current state: neighbours, boundary densities and rates.
@@ -232,8 +236,8 @@ impl PreparedStep<'_> {
         Ok(powers)
     }
 
-    /// Makes the time step in all regions; the finest region makes several shorter time steps. Then particles enter and
-    /// leave the buffers between the regions.
+    /// Makes the time step in all regions; the finest region makes several shorter time steps. Before, the fine water
+    /// follows the units; afterwards, particles enter and leave the buffers between the regions.
     ///
     /// # Errors
     /// If a particle has left the domain or has an impossible density, if units overlap each other or the bed too much,
@@ -243,6 +247,7 @@ impl PreparedStep<'_> {
         if simulation.coarse.is_empty() {
             return simulation.advance(dt);
         }
+        simulation.follow_units().map_err(|error| Failure::Regions(error.to_string()))?;
         // Not before the outputs: a checkpoint must not contain buffers that are already set.
         simulation.couple();
         let end = simulation.time + dt;

@@ -32,6 +32,15 @@ impl Water {
         retain(&mut self.mass, keep);
     }
 
+    /// Adds the particles of `other` at the end.
+    pub fn append(&mut self, other: Self) {
+        self.position.extend(other.position);
+        self.velocity.extend(other.velocity);
+        self.density.extend(other.density);
+        self.id.extend(other.id);
+        self.mass.extend(other.mass);
+    }
+
     /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
         let vectors = (self.position.capacity() + self.velocity.capacity()) * size_of::<DVec3>();

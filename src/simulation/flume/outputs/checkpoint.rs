@@ -28,7 +28,7 @@ use crate::{
 };
 
 /// Version of the file layout; increased when the layout changes.
-const VERSION: u32 = 17;
+const VERSION: u32 = 18;
 
 /// The state of a run without the arrays.
 #[derive(Serialize, Deserialize)]
@@ -46,6 +46,8 @@ struct Scalars {
     rigid: Option<RigidSnapshot>,
     fluid_loads: Vec<Load>,
     mean_loads: MeanLoads,
+    /// How far the ends of the finest region have moved [m].
+    moved: [f64; 2],
     /// The regions, the finest first.
     regions: Vec<RegionScalars>,
 }
@@ -115,6 +117,7 @@ impl Checkpoint {
             rigid: units.map(|units| units.world.snapshot()),
             fluid_loads: units.map_or_else(Vec::new, |units| units.fluid_loads.clone()),
             mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
+            moved: simulation.moved,
             regions: simulation.regions().map(scalars_of).collect(),
         };
         let arrays = |region: &Simulation| RegionArrays {
@@ -178,7 +181,7 @@ impl Checkpoint {
     /// # Errors
     /// As for [`Simulation::on`].
     pub fn set_up(&self, device: &Device, case: Arc<Case>) -> Result<Simulation, SetupError> {
-        Simulation::starting_at(device, case, Some(self.scalars.start))
+        Simulation::starting_at(device, case, self.scalars.start, self.scalars.moved)
     }
 
     /// Restores the state of a simulation with the same particles and units; returns the progress of the outputs. `dir`

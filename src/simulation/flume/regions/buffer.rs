@@ -18,7 +18,7 @@ pub struct Buffer {
     /// x of the outer edge, at which particles enter and leave the buffer [m].
     pub edge: f64,
     /// Places on the outer edge at which particles can enter.
-    pub(super) places: Vec<Place>,
+    pub(in crate::simulation::flume) places: Vec<Place>,
     /// Identification number of each particle that was in the buffer at the start of the time step, with the rate that
     /// the neighbouring region gives to it; `None` where that region is dry. Sorted by number.
     pub(super) given: Vec<(u32, Option<Rate>)>,
@@ -28,7 +28,7 @@ pub struct Buffer {
 
 /// A cell of the outer edge, one particle spacing wide and high.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(in crate::simulation::flume) struct Place {
     /// y and z of its centre [m].
     pub at: DVec2,
     /// Flow of the neighbouring region through the cell at the start of the time step; `None` if the cell is dry.
@@ -37,7 +37,7 @@ pub(super) struct Place {
 
 /// Flow through a cell of the outer edge.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Flow {
+pub(in crate::simulation::flume) struct Flow {
     /// Share of the cell below the free surface [-].
     pub share: f64,
     /// Velocity [m/s].

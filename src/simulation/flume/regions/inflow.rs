@@ -94,7 +94,7 @@ impl Simulation {
     }
 
     /// Removes the buffer particles beyond the outer edges.
-    fn let_out(&mut self) {
+    pub(in crate::simulation::flume) fn let_out(&mut self) {
         let is_inside = |x: f64| self.buffers.iter().all(|buffer| buffer.outwards * (x - buffer.edge) <= 0.0);
         let keep: Vec<bool> = self.water.position.iter().map(|position| is_inside(position.x)).collect();
         if keep.contains(&false) {

@@ -1,0 +1,100 @@
+//! Sets up the units of a validated case: rigid bodies, their boundary particles, and the water beside them.
+
+use glam::DVec3;
+
+use super::{
+    Units,
+    measures::{mean_loads::MeanLoads, water_at_impacts::WaterAtImpacts},
+};
+use crate::simulation::bodies::rigid_setup;
+use crate::{
+    case::{self, Case},
+    geometry::armour_unit::ArmourUnit,
+    rigid::{Load, RigidError, RigidWorld},
+    sph::particles::{
+        boundary::BoundaryParticle,
+        fill::clear_solid,
+        obstacle::box_particles,
+        unit::{MIN_DEPTH, unit_particles},
+        water::Water,
+    },
+};
+
+/// Narrowest gap between a unit and its periodic image that water can pass, divided by the particle spacing [-]. A
+/// narrower gap has no room for water particles.
+const NARROWEST_GAP: f64 = 0.5;
+
+/// Returns the units at their start positions.
+pub(super) fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, RigidError> {
+    let shape = units.shape.unit().clone();
+    let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
+    let start = setup.bodies.clone();
+    let world = RigidWorld::new(setup)?;
+    let (fluid_loads, mean_loads) = (vec![Load::default(); start.len()], MeanLoads::new(start.len()));
+    Ok(Units { shape, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
+}
+
+/// Returns the boundary particles of a unit in body axes; in two dimensions, those of a slice of the unit. If a cuboid
+/// fills the width of a periodic flume, its side faces touch its periodic images. The vectors `to_surface` of its
+/// boundary particles then never point to these faces.
+pub(super) fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
+    let case::Domain { dp, width, sides, .. } = case.domain;
+    let mut particles = match (shape.as_box(), sides) {
+        (Some(bounds), case::Sides::TwoDimensional) => box_particles(&bounds.slice(width), dp, f64::INFINITY),
+        (Some(bounds), case::Sides::Periodic) if width - bounds.edges().y < NARROWEST_GAP * dp => {
+            box_particles(&bounds.with_closed_sides(), dp, f64::INFINITY)
+        }
+        _ => particles_of(shape, dp),
+    };
+    particles.iter_mut().for_each(|particle| particle.allows_free_slip = case.numerics.slip_on_units);
+    particles
+}
+
+/// Returns the boundary particles of a unit in body axes, for the particle spacing `dp` [m].
+pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
+    if let Some(bounds) = shape.as_box() {
+        return box_particles(&bounds, dp, f64::INFINITY);
+    }
+    let solid = shape.solid();
+    let [low, high] = solid.bounds();
+    unit_particles(|point| solid.project(point), low, high, solid.volume_properties().volume, dp)
+}
+
+/// Removes the water particles inside the units and their periodic images. Moves other particles outwards if they are
+/// too near to the surface of a unit.
+pub(super) fn clear_units(water: &mut Water, units: &Units, case: &Case) {
+    let (solid, least) = (units.shape.solid(), MIN_DEPTH * case.domain.dp);
+    let reach = solid.bounds().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max) * 2.0 + least;
+    let images = if case.domain.sides == case::Sides::Periodic { vec![-1.0, 0.0, 1.0] } else { vec![0.0] };
+    for state in units.states() {
+        for image in &images {
+            let centre = state.position + DVec3::Y * (image * case.domain.width);
+            clear_solid(water, least, |point| {
+                let from_centre = point - centre;
+                if from_centre.length_squared() > reach * reach {
+                    return (point, f64::INFINITY);
+                }
+                let (nearest, distance) = solid.project(state.rotation.inverse() * from_centre);
+                (centre + state.rotation * nearest, distance)
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_have_free_slip_only_if_the_case_sets_slip_on_units() {
+        let given = include_str!("../../../cases/fudo/H4.5-slice.json");
+        for slides in [false, true] {
+            let wanted = format!(r#""wall_slip": "free_slip", "slip_on_units": {slides}"#);
+            let text = given.replace(r#""wall_slip": "original""#, &wanted);
+            let case = Case::from_str(&text, "cases/fudo/test.json").unwrap_or_else(|errors| panic!("{errors}"));
+            let units = case.units.as_ref().expect("the slice has two units");
+            let particles = unit_in_place(units.shape.unit(), &case);
+            assert!(!particles.is_empty() && particles.iter().all(|particle| particle.allows_free_slip == slides));
+        }
+    }
+}
