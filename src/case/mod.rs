@@ -66,4 +66,4 @@ pub use units::shape::{UnitKind, UnitShape};
 pub use units::{UnitPose, Units};
 pub use wave::Wave;
 pub use wave::external_wave::{ExternalWave, ROWS_FILE};
-pub use wave::wavemaker::Wavemaker;
+pub use wave::wavemaker::{SHARE_TO_GAUGE, Wavemaker};

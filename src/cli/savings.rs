@@ -14,7 +14,7 @@ const ENDS: f64 = 5.0;
 /// Distance of the ends of the fine water from the units [dp]: what [`Case::load`] requires, and one for rounding.
 const FINE_MARGIN: f64 = 21.0;
 
-/// Room for the units to move within the fine water, seaward and shoreward, divided by their height [-].
+/// Length of the fine water seaward and shoreward of the units, divided by their height [-].
 const ROOM: [f64; 2] = [2.0, 4.0];
 
 /// Largest Courant number that has been tested with waves and units; the default.

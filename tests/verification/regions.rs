@@ -144,6 +144,40 @@ fn still_water_stays_still_when_the_fine_water_moves() {
     assert_still(&still_water(0.01, &[[1.0, 2.0]], 2.5, moved));
 }
 
+/// The fine water can move away from the places where the units were at the start, and the units can move through its
+/// former ends. The unit is moved by hand.
+#[test]
+fn fine_water_follows_units_past_its_former_ends() {
+    let mut case: Value = serde_json::from_str(include_str!("../../cases/fudo/H4.5-slice.json")).unwrap();
+    let case_of_file = case.as_object_mut().unwrap();
+    case_of_file.remove("reference");
+    case_of_file.remove("gauges");
+    case["domain"] = json!({ "x_m": [37.9, 40.15], "sides": "two_dimensional", "top_z_m": 1.1, "dp_m": 0.007,
+                             "fine_x_m": [[38.8, 39.2]] });
+    case["wavemaker"] = json!({ "kind": "open_ends" });
+    case["units"] = json!({ "shape": "cuboid", "size_m": [0.06, 0.06, 0.06], "mass_kg": 0.5, "material": "mortar",
+                            "centres_m": [[39.0, 0.03, 0.747]] });
+    let mut slice = simulation(&case);
+    let end = 0.004;
+    run_until(&mut slice, end, |_| ());
+    let (start, ends) = (mass(&slice), slice.own_x());
+    let far = slice.units.as_ref().unwrap().states()[0].position.x + 0.3;
+    // Move the unit in small steps; the fine water follows by one hop at a time.
+    while slice.units.as_ref().unwrap().states()[0].position.x < far {
+        let world = &mut slice.units.as_mut().unwrap().world;
+        let mut snapshot = serde_json::to_value(world.snapshot()).unwrap();
+        let position = &mut snapshot["bodies"][0]["position"];
+        // Above the water, so that no water is inside the unit.
+        *position = json!([position[0].as_f64().unwrap() + 0.02, position[1], 1.0]);
+        world.restore(&serde_json::from_value(snapshot).unwrap()).unwrap();
+        slice.place_boundary();
+        slice.step().unwrap();
+    }
+    let now = slice.own_x();
+    assert!((0..2).all(|end| (now[end] - ends[end] - 0.3).abs() < 0.03), "{ends:?} {now:?}");
+    assert!((mass(&slice) / start - 1.0).abs() < 1e-3);
+}
+
 /// Takes five minutes: `cargo test --release --test verification -- --ignored --nocapture ten_seconds`
 #[test]
 #[ignore = "takes five minutes"]
@@ -209,7 +243,7 @@ fn crossing_errors(dp: f64, uniform: f64, gauges: &[f64]) -> [f64; 2] {
 #[test]
 fn a_solitary_wave_crosses_interfaces() {
     let [crests, seaward] = crossing_errors(0.015, 0.03, &[8.7, 9.2, 9.8, 10.4]);
-    // Reached: 1.4 %. Limit 2 %: a twentieth of the coarse spacing, the scatter of levels.
+    // Reached: 1.5 %. Limit 2 %: a twentieth of the coarse spacing, the scatter of levels.
     assert!(crests < 0.02, "{crests}");
     // Reached: 0.5 %.
     assert!(seaward < 0.01, "{seaward}");

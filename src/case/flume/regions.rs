@@ -38,12 +38,13 @@ impl Region {
     }
 
     /// Returns how far both ends of the finest region can move outwards [m]; 0 at an end of the domain. `dp` is the
-    /// particle spacing of the finest region [m].
-    pub fn room(regions: &[Self], dp: f64) -> [f64; 2] {
+    /// particle spacing of the finest region [m]; the regions at the ends of the domain keep at least the length `least`
+    /// [m].
+    pub fn room(regions: &[Self], dp: f64, least: f64) -> [f64; 2] {
         [0, 1].map(|end| {
             let is_outermost = |region: &&Self| region.continues[1 - end] && !region.continues[end];
             let Some(outermost) = regions.iter().skip(1).find(is_outermost) else { return 0.0 };
-            outermost.x[1] - outermost.x[0] - SHORTEST * f64::from(outermost.coarseness) * dp
+            outermost.x[1] - outermost.x[0] - least.max(SHORTEST * f64::from(outermost.coarseness) * dp)
         })
     }
 
@@ -240,7 +241,7 @@ mod tests {
             assert_eq!(pair[0].x[1], pair[1].x[0]);
         }
         // The outermost regions, 1.0 m and 2.0 m long, keep at least 16 of their spacings of 0.04 m.
-        let room = Region::room(&regions, 0.01);
+        let room = Region::room(&regions, 0.01, 0.0);
         assert!((room[0] - 0.36).abs() < 0.02 && (room[1] - 1.36).abs() < 0.02, "{room:?}");
     }
 

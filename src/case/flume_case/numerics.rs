@@ -115,7 +115,7 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
     );
     let wall_slip = validate_slip(file, check);
     check.number("numerics.diffusion_delta", file.diffusion_delta, at_least(0.0).up_to(1.0), "", "0.1 is usual");
-    let advice = "0.2 is usual; larger values can be unstable";
+    let advice = "0.4 is usual; 0.2 is the default of DualSPHysics";
     check.number("numerics.cfl", file.cfl, at_least(0.001).up_to(0.5), "", advice);
     refuse_unstable_diffusion(file, check);
     warn_of_ignored_constants(file, check);

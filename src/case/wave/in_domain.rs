@@ -1,7 +1,7 @@
 //! Checks the wave and its wavemaker against the particle domain.
 
 use super::Wave;
-use super::wavemaker::{NEAREST_GAUGE, NEAREST_OPEN_GAUGE, Wavemaker};
+use super::wavemaker::{NEAREST_GAUGE, NEAREST_OPEN_GAUGE, SHARE_TO_GAUGE, Wavemaker};
 use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
 use crate::case::flume::zones::RelaxationZone;
@@ -37,7 +37,9 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
         } else {
             ("wavemaker.absorption_gauge_m", NEAREST_GAUGE * spacing)
         };
-        let furthest = 0.5 * (domain.x[1] - domain.x[0]);
+        let of_end = |end: usize| domain.regions.iter().find(|region| region.x[end] == domain.x[end]);
+        let length = |end: usize| of_end(end).map_or(f64::INFINITY, |region| region.x[1] - region.x[0]);
+        let furthest = SHARE_TO_GAUGE * if is_open { length(0).min(length(1)) } else { length(0) };
         let advice = "a distance of about one depth is usual";
         check.number(key, gauge, at_least(nearest).up_to(furthest), "m", advice);
     }

@@ -10,6 +10,10 @@ use crate::waves::theory::regular::RegularWave;
 /// Largest allowed distance of a hinge from z = 0 [m]. Larger values are probably typing errors.
 const FURTHEST_HINGE: f64 = 1e5;
 
+/// Largest distance of an absorption gauge from its end of the domain, divided by the length of the region at this end
+/// [-].
+pub const SHARE_TO_GAUGE: f64 = 0.5;
+
 /// Smallest distance of an absorption gauge from the piston, divided by the particle spacing [-]. A nearer gauge would
 /// measure the gap between piston and water.
 pub(super) const NEAREST_GAUGE: f64 = 4.0;

@@ -7,7 +7,10 @@ use super::{
     failure::{self, Failure, LARGEST_COMPRESSION, Particle},
     measures::extremes::Extremes,
 };
-use crate::sph::{particles::water::Water, solver::backend::WaterExtremes};
+use crate::sph::{
+    particles::{sums::sums, water::Water},
+    solver::backend::WaterExtremes,
+};
 
 /// Mach number above which the water is no longer nearly incompressible [-]. The relative change of density is about
 /// the square of the Mach number; weakly compressible SPH allows 1 % (Monaghan 1994).
@@ -87,11 +90,12 @@ impl Simulation {
 
     /// Returns the volume of the water of all regions, without their buffers: the sum of m / rho [m3].
     fn water_volume(&self) -> f64 {
-        // A serial sum, so that the last bit does not depend on the number of threads.
         let of_region = |region: &Self| -> f64 {
             let Water { position, mass, density, .. } = &region.water;
-            let own = (0..position.len()).filter(|&i| region.owns(position[i].x));
-            own.map(|i| mass[i] / density[i]).sum()
+            let [from, to] = region.own_x();
+            let of_particle = |i: usize| [if (from..to).contains(&position[i].x) { mass[i] / density[i] } else { 0.0 }];
+            let [volume] = sums(position.len(), of_particle);
+            volume
         };
         self.regions().map(of_region).sum()
     }

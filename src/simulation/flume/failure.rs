@@ -104,8 +104,8 @@ pub enum Failure {
     )]
     LeftFineWater { time: f64, step: u64, unit: usize, place: DVec3 },
     /// The regions of different particle spacing cannot move.
-    #[error("the fine water cannot follow the units: {0}")]
-    Regions(String),
+    #[error("after {time:.4} s (step {step}) the fine water cannot follow the units: {reason}")]
+    Regions { time: f64, step: u64, reason: String },
     /// The device that computes the water has failed.
     #[error(transparent)]
     Device(#[from] DeviceError),

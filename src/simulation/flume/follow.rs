@@ -17,14 +17,14 @@ use super::{
     setup::{SetupError, across, basin},
 };
 use crate::{
-    case::{Domain, Region},
+    case::{Domain, Region, SHARE_TO_GAUGE},
     rigid::BodyState,
     sph::{device::Device, particles::water::Water},
 };
 
 /// Distance by which an end of the finest region moves at once, in particle spacings of this region [-]. It is the
-/// largest spacing of a coarser region, so all regions keep a whole number of particle spacings. It also prevents a
-/// unit that rocks from moving an end back and forth.
+/// largest spacing of a coarser region, so the interfaces stay on the lattices of all regions. It also prevents a unit
+/// that rocks from moving an end back and forth.
 const HOP: f64 = 4.0;
 
 impl Simulation {
@@ -41,9 +41,8 @@ impl Simulation {
     /// Returns how far from their places at the start the ends of the finest region should be [m].
     fn moved_with(&self, units: &Units) -> [f64; 2] {
         let domain = &self.case.domain;
-        let (hop, room) = (HOP * domain.dp, Region::room(&domain.regions, domain.dp));
-        // Obstacles stay in the finest region.
-        let inwards = if domain.obstacles.is_empty() { f64::INFINITY } else { 0.0 };
+        let gauge = self.case.wavemaker.absorption_gauge().unwrap_or(0.0);
+        let (hop, room) = (HOP * domain.dp, Region::room(&domain.regions, domain.dp, gauge / SHARE_TO_GAUGE));
         [(0, -1.0), (1, 1.0)].map(|(end, outwards)| {
             let outermost = |states: &[BodyState]| {
                 states.iter().map(|state| outwards * state.position.x).fold(f64::NEG_INFINITY, f64::max)
@@ -52,13 +51,13 @@ impl Simulation {
             if !domain.regions[0].continues[end] || (travel - outwards * self.moved[end]).abs() < hop {
                 return self.moved[end];
             }
-            let hops = (travel / hop).round().clamp(-inwards, (room[end] / hop).floor().max(0.0));
+            let hops = (travel / hop).round().min((room[end] / hop).floor().max(0.0));
             outwards * hops * hop
         })
     }
 
-    /// Moves the ends of the finest region to the distances `moved` [m] from their places at the start. All regions must
-    /// be evaluated; they are evaluated again.
+    /// Moves the ends of the finest region to the distances `moved` [m] from their places at the start, by less than the
+    /// width of a buffer. All regions must be evaluated; they are evaluated again.
     ///
     /// # Errors
     /// If the regions cannot be set up.

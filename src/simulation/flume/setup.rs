@@ -123,7 +123,8 @@ impl Simulation {
         let region = |number: usize| -> Result<Self, SetupError> {
             let of_region = Arc::new(case.of_region(&regions[number]));
             let buffers = Buffer::of_region(&regions[number], &regions, &of_region);
-            Self::of_region(device, of_region, flume.clone(), start, number as u32, buffers)
+            let units = of_region.units.as_ref().map(|units| set_up_units(&case, units)).transpose()?;
+            Self::of_region(device, of_region, flume.clone(), start, number as u32, buffers, units)
         };
         let mut simulation = region(0)?;
         simulation.coarse = (1..regions.len()).map(region).collect::<Result<_, _>>()?;
@@ -132,7 +133,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Sets up the simulation of the region `number`, which has the case `case`.
+    /// Sets up the simulation of the region `number`, which has the case `case` and these `units`.
     fn of_region(
         device: &Device,
         case: Arc<Case>,
@@ -140,13 +141,13 @@ impl Simulation {
         start: f64,
         number: u32,
         buffers: Vec<Buffer>,
+        units: Option<Units>,
     ) -> Result<Self, SetupError> {
         let ends = ends(&case, flume.as_deref(), start);
         for end in ends.iter().filter(|end| end.open.is_none()) {
             check_travel(&case, &end.wavemaker)?;
         }
         let reach = reach_of(&case, &ends);
-        let units = case.units.as_ref().map(|units| set_up_units(&case, units)).transpose()?;
 
         let (across, outline) = (across(&case), outline(&case, reach));
         let shape_particles = units.as_ref().map_or_else(Vec::new, |units| unit_in_place(&units.shape, &case));

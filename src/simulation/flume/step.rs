@@ -247,7 +247,8 @@ impl PreparedStep<'_> {
         if simulation.coarse.is_empty() {
             return simulation.advance(dt);
         }
-        simulation.follow_units().map_err(|error| Failure::Regions(error.to_string()))?;
+        let (time, step) = (simulation.time, simulation.steps);
+        simulation.follow_units().map_err(|error| Failure::Regions { time, step, reason: error.to_string() })?;
         // Not before the outputs: a checkpoint must not contain buffers that are already set.
         simulation.couple();
         let end = simulation.time + dt;

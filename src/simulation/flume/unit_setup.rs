@@ -24,7 +24,8 @@ use crate::{
 /// narrower gap has no room for water particles.
 const NARROWEST_GAP: f64 = 0.5;
 
-/// Returns the units at their start positions.
+/// Returns the units at their start positions. `case` is the case of all regions: units collide with the end walls of
+/// the domain, not with the ends of the finest region.
 pub(super) fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, RigidError> {
     let shape = units.shape.unit().clone();
     let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);

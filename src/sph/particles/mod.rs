@@ -4,5 +4,6 @@ pub mod bed;
 pub mod boundary;
 pub mod fill;
 pub mod obstacle;
+pub mod sums;
 pub mod unit;
 pub mod water;

@@ -16,7 +16,7 @@ use super::step::Solver;
 use crate::sph::{
     pairs::rate::Rate,
     parameters::Parameters,
-    particles::water::Water,
+    particles::{sums::sums, water::Water},
     terms::{density_diffusion::Diffusion, viscosity::Viscosity},
 };
 
@@ -58,26 +58,25 @@ impl Powers {
     pub(in crate::sph) fn of(water: &Water, parameters: &Parameters, all: &[Rate], pressure_only: &[Rate]) -> Self {
         let (tait, [from, to]) = (&parameters.tait, parameters.own_x);
         let vector = |rate: &Rate| DVec3::from_array(rate.acceleration.map(f64::from));
-        let mut powers = Self::default();
-        let mut squares = 0.0;
-        for (a, (all, pressure)) in all.iter().zip(pressure_only).enumerate() {
+        let [boundary, viscosity, diffusion, volume, squares] = sums(water.len(), |a| {
             if !(from..to).contains(&water.position[a].x) {
-                continue;
+                return [0.0; 5];
             }
+            let (all, pressure) = (&all[a], &pressure_only[a]);
             let (mass, density) = (water.mass[a], water.density[a]);
             // Power per mass and per d rho/dt: p / rho^2 [J m3/kg2].
             let per_rate = tait.pressure(density) / (density * density);
             let (of_all, of_pressure) = (f64::from(all.density), f64::from(pressure.density));
-            powers.boundary += mass * (water.velocity[a].dot(vector(pressure)) + per_rate * of_pressure);
-            powers.viscosity += mass * water.velocity[a].dot(vector(all) - vector(pressure));
-            powers.diffusion += mass * per_rate * (of_all - of_pressure);
-            powers.volume += mass / density;
-            squares += mass / density * (of_pressure / density).powi(2);
-        }
-        if powers.volume > 0.0 {
-            powers.divergence = (squares / powers.volume).sqrt();
-        }
-        powers
+            [
+                mass * (water.velocity[a].dot(vector(pressure)) + per_rate * of_pressure),
+                mass * water.velocity[a].dot(vector(all) - vector(pressure)),
+                mass * per_rate * (of_all - of_pressure),
+                mass / density,
+                mass / density * (of_pressure / density).powi(2),
+            ]
+        });
+        let divergence = if volume > 0.0 { (squares / volume).sqrt() } else { 0.0 };
+        Self { boundary, viscosity, diffusion, divergence, volume }
     }
 
     /// Adds the powers of other water.

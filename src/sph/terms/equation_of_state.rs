@@ -36,7 +36,7 @@ impl Tait {
     pub fn internal_energy(&self, rho: f64) -> f64 {
         let ratio = rho / self.rho0;
         let b = self.stiffness() / self.rho0;
-        b * ((ratio.powf(self.gamma - 1.0) - 1.0) / (self.gamma - 1.0) + 1.0 / ratio - 1.0)
+        b * ((self.power(ratio, self.gamma - 1.0) - 1.0) / (self.gamma - 1.0) + 1.0 / ratio - 1.0)
     }
 
     /// Returns base^exponent; integer exponents, the usual case, avoid the slower `powf`.

@@ -1,6 +1,10 @@
 //! Energy of water and units.
 
 use crate::simulation::flume::Simulation;
+use crate::sph::{
+    parameters::Parameters,
+    particles::{sums::sums, water::Water},
+};
 
 /// Energy of water and units [J]; potential energy is zero at z = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,13 +31,7 @@ impl Energies {
 impl Simulation {
     /// Returns the kinetic, potential and internal energy of a water particle [J].
     pub(in crate::simulation::flume) fn energy_of(&self, particle: usize) -> [f64; 3] {
-        let (water, parameters) = (&self.water, self.solver().parameters());
-        [
-            0.5 * water.velocity[particle].length_squared(),
-            parameters.gravity * water.position[particle].z,
-            parameters.tait.internal_energy(water.density[particle]),
-        ]
-        .map(|per_mass| water.mass[particle] * per_mass)
+        energy_of(&self.water, self.solver().parameters(), particle)
     }
 
     /// Returns the energy of the water of all regions, without their buffers, and of the units.
@@ -42,13 +40,13 @@ impl Simulation {
         let mut energy =
             Energies { kinetic: 0.0, potential: 0.0, internal: 0.0, units_kinetic: 0.0, units_potential: 0.0 };
         for region in self.regions() {
-            let position = &region.water.position;
-            for particle in (0..position.len()).filter(|&particle| region.owns(position[particle].x)) {
-                let [kinetic, potential, internal] = region.energy_of(particle);
-                energy.kinetic += kinetic;
-                energy.potential += potential;
-                energy.internal += internal;
-            }
+            let (water, parameters, [from, to]) = (&region.water, region.solver().parameters(), region.own_x());
+            let is_own = |i: usize| (from..to).contains(&water.position[i].x);
+            let of_particle = |i| if is_own(i) { energy_of(water, parameters, i) } else { [0.0; 3] };
+            let [kinetic, potential, internal] = sums(water.len(), of_particle);
+            energy.kinetic += kinetic;
+            energy.potential += potential;
+            energy.internal += internal;
         }
         if let (Some(units), Some(of_case)) = (&self.units, &self.case.units) {
             // In two dimensions, the water is as thick as one slice of a unit. Therefore use the mass of one slice.
@@ -62,4 +60,13 @@ impl Simulation {
         }
         energy
     }
+}
+
+fn energy_of(water: &Water, parameters: &Parameters, particle: usize) -> [f64; 3] {
+    [
+        0.5 * water.velocity[particle].length_squared(),
+        parameters.gravity * water.position[particle].z,
+        parameters.tait.internal_energy(water.density[particle]),
+    ]
+    .map(|per_mass| water.mass[particle] * per_mass)
 }
