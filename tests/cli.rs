@@ -90,7 +90,7 @@ fn read_json(file: &Path) -> Value {
 /// Returns the summary without the keys in which two runs of one case may differ.
 fn lasting_summary(dir: &Path) -> Value {
     let mut summary = read_json(&dir.join("summary.json"));
-    for key in ["wall_s", "steps_per_s", "threads", "processor"] {
+    for key in ["wall_s", "outputs_s", "steps_per_s", "threads", "processor"] {
         summary.as_object_mut().unwrap().remove(key);
     }
     summary

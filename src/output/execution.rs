@@ -8,6 +8,9 @@ use sysinfo::{CpuRefreshKind, System};
 pub struct Execution {
     /// Wall-clock time of all sessions of the run [s]; in a dry test, of the last session only.
     pub wall_s: f64,
+    /// Part of `wall_s` that tables, snapshots and checkpoints took [s]; `None` in runs that do not measure it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outputs_s: Option<f64>,
     /// Time steps per second of wall-clock time [1/s].
     pub steps_per_s: f64,
     /// Number of threads of the solver.
@@ -26,6 +29,7 @@ impl Execution {
     pub fn here(wall: f64, steps: f64, device: Option<&str>) -> Self {
         Self {
             wall_s: wall,
+            outputs_s: None,
             steps_per_s: steps / wall.max(1e-9),
             threads: rayon::current_num_threads(),
             device: device.map(str::to_owned),

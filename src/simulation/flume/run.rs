@@ -3,6 +3,7 @@
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
+    time::Instant,
 };
 
 use super::{
@@ -106,7 +107,9 @@ impl Run for FlumeRun {
             return Ok(Step::Stopped);
         }
         let checkpoints = self.recorder.state().checkpoints.count;
+        let begun = Instant::now();
         self.recorder.record_due(&mut now)?;
+        now.statistics.outputs_s += begun.elapsed().as_secs_f64();
         if now.is_on_gpu() && self.recorder.state().checkpoints.count > checkpoints {
             // The positions in the checkpoint differ slightly from those on the graphics card. Load the positions of
             // the checkpoint onto the card, as a resumed run does. Both runs then give the same results.

@@ -48,6 +48,8 @@ pub struct Statistics {
     pub warnings: Vec<String>,
     /// Wall time of all sessions of the run [s].
     pub wall_s: f64,
+    /// Part of this time that the outputs took [s].
+    pub outputs_s: f64,
 }
 
 impl Statistics {

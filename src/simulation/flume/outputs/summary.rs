@@ -55,7 +55,10 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
             max: statistics.longest_step,
         },
         stopped,
-        execution: Execution::here(statistics.wall_s, steps_run, Some(simulation.solver().name())),
+        execution: Execution {
+            outputs_s: Some(statistics.outputs_s),
+            ..Execution::here(statistics.wall_s, steps_run, Some(simulation.solver().name()))
+        },
         ..Summary::default()
     };
     if let Some(units) = &case.units {
