@@ -156,6 +156,6 @@ fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
     let slow = units.states().iter().all(|state| speed(state) < rule.speed);
     let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
     // Units are also at rest before the wave reaches them: do not stop then.
-    let reached = simulation.time >= rule.not_before.max(simulation.crest);
-    (reached && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
+    let has_passed = simulation.time >= rule.not_before.max(simulation.passed);
+    (has_passed && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
 }

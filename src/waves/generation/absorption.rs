@@ -85,6 +85,17 @@ impl Absorption {
         }
     }
 
+    /// Returns the parameters for long waves of finite height. `depth_m` is the depth of the generated wave, and
+    /// `excess_m` the excess of the measured elevation over it [m].
+    ///
+    /// The Riemann invariant of long waves that enters the domain at its seaward end is u + 2 sqrt(g d), with velocity u
+    /// and depth d (Stoker 1957, section 10.2). If the invariant is that of the generated wave, the excess y changes the
+    /// velocity by -2 (sqrt(g (d + y)) - sqrt(g d)) = -y 2 g / (sqrt(g (d + y)) + sqrt(g d)).
+    pub fn for_finite_height(self, depth_m: f64, excess_m: f64, gravity: f64) -> Self {
+        let [generated, measured] = [depth_m, depth_m + excess_m].map(|depth| (gravity * depth.max(0.0)).sqrt());
+        Self { velocity_per_elevation: 2.0 * gravity / (generated + measured), ..self }
+    }
+
     /// Advances the state by `dt` [s]; `excess_m` is the measured elevation minus the elevation of the
     /// generated wave [m].
     pub fn advance(&self, state: &mut AbsorptionState, excess_m: f64, dt: f64) {
@@ -142,6 +153,18 @@ mod tests {
         let [long, limit] =
             [Some(200.0), None].map(|period| Absorption::for_full_depth_piston(0.2, 0.4, period, 9.81, 0.1));
         assert!((long.velocity_per_elevation / limit.velocity_per_elevation - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn long_waves_of_finite_height_keep_their_entering_invariant() {
+        let (gravity, depth) = (9.81, 0.2);
+        let factor = |excess| PISTON.for_finite_height(depth, excess, gravity).velocity_per_elevation;
+        for excess in [-0.05_f64, 0.02, 0.1] {
+            let change = 2.0 * ((gravity * (depth + excess)).sqrt() - (gravity * depth).sqrt());
+            assert!((factor(excess) * excess / change - 1.0).abs() < 1e-12);
+        }
+        // Very small waves tend to the linear limit.
+        assert!((factor(1e-6) / (gravity / depth).sqrt() - 1.0).abs() < 1e-5);
     }
 
     #[test]

@@ -25,6 +25,10 @@ use crate::waves::generation::wavemaker::Wavemaker;
 /// must move by half a particle spacing between release and taking, so that it does not alternate between them.
 const TAKES_AT: f64 = 0.5;
 
+/// Smallest depth at an open end with which its absorption is computed, divided by the depth of the still water [-]. It
+/// keeps the absorption finite where the flume model is nearly dry.
+const LEAST_DEPTH: f64 = 0.1;
+
 /// Rows of boundary particles that move at one end of the particle domain.
 #[derive(Debug, Clone)]
 pub struct MovingEnd {
@@ -45,6 +49,8 @@ pub struct EndState {
     pub absorbed: AbsorptionState,
     /// For each row of an open end, how often it has released particles, minus how often it has taken particles.
     pub released: Vec<i64>,
+    /// For each row of an open end, how many layers of particles it should still release [-], between -0.5 and 0.5.
+    pub owed: Vec<f64>,
 }
 
 impl MovingEnd {
@@ -55,14 +61,15 @@ impl MovingEnd {
 
     /// Creates an open end with the particle spacing `dp` [m].
     pub fn open(wavemaker: Wavemaker, inwards: f64, dp: f64) -> Self {
-        let released = vec![0; wavemaker.row_heights_m().len()];
-        Self { wavemaker, inwards, open: Some(dp), state: EndState { released, ..EndState::default() } }
+        let rows = wavemaker.row_heights_m().len();
+        let state = EndState { released: vec![0; rows], owed: vec![0.0; rows], ..EndState::default() };
+        Self { wavemaker, inwards, open: Some(dp), state }
     }
 
     /// Returns displacement [m] and velocity [m/s] along x of each row at the flume time `t` [s]. This time is
     /// `before_end` [s] before the end of the time step; `self.state` is the state at the end of the time step.
     pub fn rows(&self, t: f64, before_end: f64) -> Vec<[f64; 2]> {
-        let EndState { absorbed, released } = &self.state;
+        let EndState { absorbed, released, .. } = &self.state;
         let offset = absorbed.displacement_m - before_end * absorbed.velocity_m_s;
         let mut rows = self.wavemaker.rows_at(t);
         for [x, v] in &mut rows {
@@ -89,7 +96,7 @@ impl MovingEnd {
     /// Updates the motion that absorbs returning waves, over a time step of length `dt` [s] that starts at the flume
     /// time `t` [s].
     fn absorb(&mut self, sampler: &Sampler, case: &Case, flume: Option<&FlumeRecord>, t: f64, dt: f64) {
-        let Some(absorption) = self.wavemaker.absorption() else { return };
+        let Some(&absorption) = self.wavemaker.absorption() else { return };
         let front = match self.open {
             Some(_) => self.wavemaker.rest_x_m(),
             None => self.wavemaker.x_at_surface_m(t) + self.state.absorbed.displacement_m,
@@ -103,6 +110,15 @@ impl MovingEnd {
         let generated = generated_elevation(&self.wavemaker, flume, absorption.gauge_m, x, t);
         // Without water at the gauge, there is no wave to absorb.
         let excess = measured.map_or(0.0, |z| z - case.flume.still_water_level - generated);
+        let absorption = match (self.open, flume) {
+            (Some(_), Some(record)) => {
+                let (level, still) = (record.surface_level_m(front, t), case.flume.still_depth(front));
+                let depth = (level - case.flume.profile.z(front)).max(LEAST_DEPTH * still);
+                let smoothed = self.inwards * self.state.absorbed.excess_m();
+                absorption.for_finite_height(depth, smoothed, case.fluid.gravity)
+            }
+            _ => absorption,
+        };
         absorption.advance(&mut self.state.absorbed, self.inwards * excess, dt);
     }
 }
@@ -161,7 +177,11 @@ impl Simulation {
             let advance = end.inwards * displacement;
             if advance >= dp {
                 end.state.released[row] += 1;
-                if end.wavemaker.row_heights_m()[row] < level {
+                // The highest row in the water releases particles in proportion to its depth in the water.
+                let depth = level - (end.wavemaker.row_heights_m()[row] - 0.5 * dp);
+                end.state.owed[row] += (depth / dp).clamp(0.0, 1.0);
+                if end.state.owed[row] >= 0.5 {
+                    end.state.owed[row] -= 1.0;
                     self.release(piston, row, place + displacement - 0.5 * end.inwards * dp, velocity);
                 }
             } else if advance < -TAKES_AT * dp {

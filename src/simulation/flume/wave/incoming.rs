@@ -32,6 +32,10 @@ const FLUME_MARGIN: f64 = 1.5;
 /// from the seaward end to the particles [-].
 const ARRIVAL_ALLOWANCE: f64 = 2.5;
 
+/// Share of the highest rise of the level at which the crest of a solitary wave has passed [-]. The force of a long wave
+/// goes with the square of its velocity, and so about with the square of the rise: it is then half of its maximum.
+const PASSED: f64 = 0.75;
+
 /// Time constant, in wave periods, with which the rows of a piston return to their start positions against the drift of
 /// the water. With 4 wave periods, the return reduces the oscillation of the rows by only 1 / (2 pi 4)^2 / 2 = 0.08 %,
 /// and shifts its phase by 2.3 degrees.
@@ -128,15 +132,18 @@ pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
     }
 }
 
-/// Returns the time since the start of the particles at which the crest of a solitary wave is at x [m] in the flume
-/// model [s]; 0 for other waves.
-pub(crate) fn crest_time(case: &Case, record: Option<&FlumeRecord>, start: f64, x: f64) -> f64 {
+/// Returns the time since the start of the particles at which the crest of a solitary wave has passed x [m] in the flume
+/// model [s]: the rise of the level since the start has fallen to [`PASSED`] of its maximum, or the run ends. 0 for
+/// other waves, or if x stays dry.
+pub(crate) fn passing_time(case: &Case, record: Option<&FlumeRecord>, start: f64, x: f64) -> f64 {
     let (Some(record), Wave::Solitary(_) | Wave::SolitaryInflow(_)) = (record, &case.wave) else { return 0.0 };
     let end = start + case.stop.duration;
     let times = record.times_s().iter().filter(|time| (start..=end).contains(*time));
-    let levels = times.map(|&time| (time - start, record.elevation(x, time)));
-    // Of equal levels, take the first. If x stays dry, all levels are equal, and the run does not wait for a crest.
-    levels.reduce(|highest, next| if next.1 > highest.1 { next } else { highest }).map_or(0.0, |(time, _)| time)
+    let rises: Vec<(f64, f64)> =
+        times.map(|&time| (time - start, record.elevation(x, time) - record.elevation(x, start))).collect();
+    let crest = rises.iter().copied().fold((0.0, 0.0), |highest, rise| if rise.1 > highest.1 { rise } else { highest });
+    let has_passed = |(time, rise): &&(f64, f64)| *time >= crest.0 && *rise <= PASSED * crest.1;
+    rises.iter().find(has_passed).map_or(case.stop.duration, |(time, _)| *time)
 }
 
 /// Returns the multi-layer piston for the wave of the case.
