@@ -8,7 +8,8 @@ use sysinfo::{CpuRefreshKind, System};
 pub struct Execution {
     /// Wall-clock time of all sessions of the run [s]; in a dry test, of the last session only.
     pub wall_s: f64,
-    /// Part of `wall_s` that tables, snapshots and checkpoints took [s]; `None` in runs that do not measure it.
+    /// Part of `wall_s` in which the run computed, copied or waited for tables, snapshots and checkpoints [s]; another
+    /// thread writes the files meanwhile. `None` in runs that do not measure it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outputs_s: Option<f64>,
     /// Time steps per second of wall-clock time [1/s].

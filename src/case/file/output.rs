@@ -93,6 +93,6 @@ pub struct AtRestFile {
     /// Time for which all units must be at rest [s].
     pub for_s: f64,
     /// Earliest time at which the rest criterion can end the run [s]. If the flume model carries a solitary wave, its
-    /// crest must also have reached all units.
+    /// crest must also have passed all units.
     pub not_before_s: f64,
 }

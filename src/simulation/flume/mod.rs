@@ -75,9 +75,10 @@ pub struct Simulation {
     pub steps: u64,
     /// Flume time at which the particles started [s].
     pub start: f64,
-    /// Time at which, in the flume model, the crest of a solitary wave has passed all units [s]; 0 for other waves.
+    /// Time at which, in the flume model, the crest of a solitary wave has passed all units at the start [s]; 0 for other
+    /// waves.
     /// Like `time`, it counts from the start of the particles.
-    pub passed: f64,
+    pub passing_time: f64,
     /// Extremes and counts since the start of the run.
     pub statistics: Statistics,
     solver: Box<dyn Backend>,

@@ -156,6 +156,6 @@ fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
     let slow = units.states().iter().all(|state| speed(state) < rule.speed);
     let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
     // Units are also at rest before the wave reaches them: do not stop then.
-    let has_passed = simulation.time >= rule.not_before.max(simulation.passed);
-    (has_passed && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
+    let may_stop = simulation.time >= rule.not_before.max(simulation.passing_time);
+    (may_stop && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
 }

@@ -170,7 +170,7 @@ impl Simulation {
         water.id.iter_mut().for_each(|id| *id += number * IDS_PER_REGION);
 
         let shoreward = units.iter().flat_map(Units::states).map(|state| state.position.x).reduce(f64::max);
-        let passed = shoreward.map_or(0.0, |x| passing_time(&case, flume.as_deref(), start, x));
+        let passing_time = shoreward.map_or(0.0, |x| passing_time(&case, flume.as_deref(), start, x));
         let [low, high] = bounds(&case, reach);
         let allowed = [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)];
         let next_id = number * IDS_PER_REGION + water.len() as u32;
@@ -191,7 +191,7 @@ impl Simulation {
             time: 0.0,
             steps: 0,
             start,
-            passed,
+            passing_time,
             ends,
             next_id,
             outline,

@@ -11,6 +11,8 @@
 //! gives y: tau dy/dt = eta_in(t + a) + eta_out(t - a) - y. For slow waves and eta_out = eta_in - y this becomes
 //! y + (tau - a) (dy/dt) / 2 = eta_in, which has no lag for tau = a. The control loop is stable for any a, because the
 //! coefficient of y(t - a) is not larger than the coefficient of y.
+//!
+//! Open ends use the velocity for waves of finite height, [`outward_velocity_m_s`], instead of y u/eta.
 
 use std::f64::consts::TAU;
 
@@ -85,27 +87,36 @@ impl Absorption {
         }
     }
 
-    /// Returns the parameters for long waves of finite height. `depth_m` is the depth of the generated wave, and
-    /// `excess_m` the excess of the measured elevation over it [m].
-    ///
-    /// The Riemann invariant of long waves that enters the domain at its seaward end is u + 2 sqrt(g d), with velocity u
-    /// and depth d (Stoker 1957, section 10.2). If the invariant is that of the generated wave, the excess y changes the
-    /// velocity by -2 (sqrt(g (d + y)) - sqrt(g d)) = -y 2 g / (sqrt(g (d + y)) + sqrt(g d)).
-    pub fn for_finite_height(self, depth_m: f64, excess_m: f64, gravity: f64) -> Self {
-        let [generated, measured] = [depth_m, depth_m + excess_m].map(|depth| (gravity * depth.max(0.0)).sqrt());
-        Self { velocity_per_elevation: 2.0 * gravity / (generated + measured), ..self }
+    /// Advances the state by `dt` [s] with linear absorption; `excess_m` is the measured elevation minus the elevation of
+    /// the generated wave [m].
+    pub fn advance(&self, state: &mut AbsorptionState, excess_m: f64, dt: f64) {
+        self.smooth(state, excess_m, dt);
+        self.move_by(state, -self.velocity_per_elevation * state.excess_m, dt);
     }
 
-    /// Advances the state by `dt` [s]; `excess_m` is the measured elevation minus the elevation of the
-    /// generated wave [m].
-    pub fn advance(&self, state: &mut AbsorptionState, excess_m: f64, dt: f64) {
+    /// Updates the smoothed excess over `dt` [s] with the measured excess [m].
+    pub fn smooth(&self, state: &mut AbsorptionState, excess_m: f64, dt: f64) {
         state.excess_m += (1.0 - (-dt / self.travel_time_s).exp()) * (excess_m - state.excess_m);
+    }
+
+    /// Adds the displacement of an absorbing velocity [m/s] over `dt` [s], within the limit.
+    pub fn move_by(&self, state: &mut AbsorptionState, velocity_m_s: f64, dt: f64) {
         let return_velocity = self.return_time_s.map_or(0.0, |time| state.displacement_m / time);
-        let target = state.displacement_m - dt * (self.velocity_per_elevation * state.excess_m + return_velocity);
+        let target = state.displacement_m + dt * (velocity_m_s - return_velocity);
         let displacement = target.clamp(-self.max_displacement_m, self.max_displacement_m);
         state.velocity_m_s = (displacement - state.displacement_m) / dt;
         state.displacement_m = displacement;
     }
+}
+
+/// Returns the velocity out of the domain [m/s] that absorbs long waves of finite height at an end. `depth_m` is the
+/// water depth in the generated wave, and `excess_m` the measured elevation minus the elevation of this wave.
+///
+/// The entering Riemann invariant of long waves, u + 2 sqrt(g d) at the seaward end, keeps the value of the generated
+/// wave (Stoker 1957, section 10.2). An excess y therefore changes the velocity by -2 (sqrt(g (d + y)) - sqrt(g d)).
+pub fn outward_velocity_m_s(depth_m: f64, excess_m: f64, gravity: f64) -> f64 {
+    let [generated, measured] = [depth_m, depth_m + excess_m].map(|depth| (gravity * depth.max(0.0)).sqrt());
+    2.0 * (measured - generated)
 }
 
 #[cfg(test)]
@@ -156,15 +167,15 @@ mod tests {
     }
 
     #[test]
-    fn long_waves_of_finite_height_keep_their_entering_invariant() {
+    fn absorbing_velocity_keeps_the_entering_invariant() {
         let (gravity, depth) = (9.81, 0.2);
-        let factor = |excess| PISTON.for_finite_height(depth, excess, gravity).velocity_per_elevation;
-        for excess in [-0.05_f64, 0.02, 0.1] {
-            let change = 2.0 * ((gravity * (depth + excess)).sqrt() - (gravity * depth).sqrt());
-            assert!((factor(excess) * excess / change - 1.0).abs() < 1e-12);
+        for excess in [-0.05, 0.02, 0.1_f64] {
+            let invariant = |velocity: f64, depth: f64| velocity + 2.0 * (gravity * depth).sqrt();
+            let inward = 0.3 - outward_velocity_m_s(depth, excess, gravity);
+            assert!((invariant(inward, depth + excess) - invariant(0.3, depth)).abs() < 1e-12);
         }
         // Very small waves tend to the linear limit.
-        assert!((factor(1e-6) / (gravity / depth).sqrt() - 1.0).abs() < 1e-5);
+        assert!((outward_velocity_m_s(depth, 1e-6, gravity) / (1e-6 * (gravity / depth).sqrt()) - 1.0).abs() < 1e-5);
     }
 
     #[test]

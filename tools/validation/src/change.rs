@@ -23,7 +23,7 @@ const SHOWN_ELSEWHERE: [&str; 3] = ["domain.dp_m", "numerics.cfl", "wave.height_
 const OF_ROW: [&str; 3] = ["domain.sides", "domain.width_m", "units.pitch_m"];
 
 /// Keys of a run with open ends that are not listed as changes. Such a domain is shorter and may have coarse water far
-/// from the units; this changes the displacements by less than 3 % (see `docs/validation/fudo-notes.md`).
+/// from the units; the page names these runs below its table.
 const OF_OPEN_ENDS: [&str; 3] = ["wavemaker.kind", "domain.x_m", "domain.fine_x_m"];
 
 /// A key whose value differs from the base case.
@@ -67,19 +67,24 @@ fn base() -> Value {
     serde_json::from_str(BASE).unwrap_or_default()
 }
 
+/// Returns true if the domain of a case has open ends.
+pub fn has_open_ends(case: &Value) -> bool {
+    case["wavemaker"]["kind"] == "open_ends"
+}
+
 /// Changes of a case from the base case, sorted by key.
 pub fn changes(case: &Value) -> Vec<Change> {
-    let (base, case) = (leaves(&base()), leaves(case));
+    let (base, of_case) = (leaves(&base()), leaves(case));
     let value = |leaves: &BTreeMap<String, Value>, key: &str| leaves.get(key).cloned().unwrap_or_default();
-    let keys: BTreeSet<&String> = base.keys().chain(case.keys()).collect();
+    let keys: BTreeSet<&String> = base.keys().chain(of_case.keys()).collect();
     let mut changes: Vec<Change> = (keys.into_iter())
-        .filter(|key| !SHOWN_ELSEWHERE.contains(&key.as_str()) && value(&base, key) != value(&case, key))
-        .map(|key| Change { key: key.clone(), base: value(&base, key), value: value(&case, key) })
+        .filter(|key| !SHOWN_ELSEWHERE.contains(&key.as_str()) && value(&base, key) != value(&of_case, key))
+        .map(|key| Change { key: key.clone(), base: value(&base, key), value: value(&of_case, key) })
         .collect();
     if changes.iter().any(|change| change.key == "units.count") {
         changes.retain(|change| !OF_ROW.contains(&change.key.as_str()));
     }
-    if changes.iter().any(|change| change.key == "wavemaker.kind" && change.value == "open_ends") {
+    if has_open_ends(case) {
         changes.retain(|change| !OF_OPEN_ENDS.contains(&change.key.as_str()));
     }
     changes

@@ -15,6 +15,8 @@ pub struct Compared<'a> {
     pub run: &'a RunResult,
     /// Changes from the base case.
     pub changes: Vec<Change>,
+    /// True if the run has open ends, which are not listed as changes.
+    pub has_open_ends: bool,
 }
 
 impl Compared<'_> {

@@ -9,7 +9,7 @@ use breakwater::{
 };
 
 use crate::{
-    change::changes,
+    change::{changes, has_open_ends},
     compared::{Compared, centimetres, millimetres},
     dependence, figures,
     friction::{self, Published},
@@ -29,13 +29,16 @@ const MISSED_PERCENT: f64 = 10.0;
 
 /// Builds the page from the compared runs.
 pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) -> Page {
-    let changes_of = |run: &RunResult| {
-        runs.iter().find(|kept| kept.name == run.name).map(|kept| changes(&kept.case)).unwrap_or_default()
-    };
+    let case_of = |run: &RunResult| runs.iter().find(|kept| kept.name == run.name).map(|kept| &kept.case);
     let mut results: Vec<Compared> = Vec::new();
     for of_wave in &comparison.waves {
         let wave = &of_wave.reference;
-        results.extend(of_wave.runs.iter().map(|run| Compared { wave, run, changes: changes_of(run) }));
+        results.extend(of_wave.runs.iter().map(|run| Compared {
+            wave,
+            run,
+            changes: case_of(run).map(changes).unwrap_or_default(),
+            has_open_ends: case_of(run).is_some_and(has_open_ends),
+        }));
     }
     let mut base: Vec<&Compared> = results.iter().filter(|result| result.changes.is_empty()).collect();
     base.sort_by(|a, b| a.wave.height_m.total_cmp(&b.wave.height_m).then(b.dp_m().total_cmp(&a.dp_m())));
@@ -92,7 +95,7 @@ fn verdict(waves: &[&ReferenceWave], base: &[&Compared]) -> String {
         missed.extend(side.map(|(side, than, percent)| {
             format!(
                 "for {name}, breakwater is on the {side} side: the units move up to {} % {than} than measured",
-                short(percent, 0)
+                short(percent, 1)
             )
         }));
         damaged.push(short(100.0 * finest.run.damage_ratio, 0));
@@ -148,4 +151,14 @@ fn add_table(page: &mut Page, base: &[&Compared]) {
         "Columns in m give the mean displacement of all units; deviations are relative to the measured mean. An empty \
          cell means that there is no published run.",
     );
+    let with_open_ends = |result: &&&Compared| result.has_open_ends;
+    let names: Vec<String> =
+        base.iter().filter(with_open_ends).map(|result| format!("`{}`", result.run.name)).collect();
+    if !names.is_empty() {
+        page.add(&format!(
+            "These runs have open ends nearer to the units than the wavemaker of the other runs, and coarse water far \
+             from the units: {}.",
+            joined(&names)
+        ));
+    }
 }

@@ -48,7 +48,7 @@ pub struct Statistics {
     pub warnings: Vec<String>,
     /// Wall time of all sessions of the run [s].
     pub wall_s: f64,
-    /// Part of this time that the outputs took [s].
+    /// Part of `wall_s` that the outputs took [s].
     pub outputs_s: f64,
 }
 

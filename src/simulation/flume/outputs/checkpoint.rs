@@ -258,7 +258,8 @@ fn restore_region(region: &mut Simulation, scalars: RegionScalars, arrays: Regio
         return Err("the regions of the domain");
     }
     for (end, state) in region.ends.iter_mut().zip(ends) {
-        if end.state.released.len() != state.released.len() {
+        let rows = end.state.released.len();
+        if [state.released.len(), state.layers_due.len()] != [rows; 2] {
             return Err("the rows of the open ends");
         }
         end.state = state;

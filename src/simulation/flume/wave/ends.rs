@@ -18,15 +18,15 @@ use crate::simulation::flume::Simulation;
 use crate::sph::particles::boundary::Boundary;
 use crate::sph::solver::sampling::Sampler;
 use crate::waves::flume_model::record::FlumeRecord;
-use crate::waves::generation::absorption::AbsorptionState;
+use crate::waves::generation::absorption::{AbsorptionState, outward_velocity_m_s};
 use crate::waves::generation::wavemaker::Wavemaker;
 
 /// Displacement of a row out of the domain at which an open end takes water, divided by the particle spacing [-]. A row
 /// must move by half a particle spacing between release and taking, so that it does not alternate between them.
 const TAKES_AT: f64 = 0.5;
 
-/// Smallest depth at an open end with which its absorption is computed, divided by the depth of the still water [-]. It
-/// keeps the absorption finite where the flume model is nearly dry.
+/// Lower limit of the depth in the absorption at an open end, divided by the still water depth [-]. It bounds the
+/// absorbing velocity where the flume model is nearly dry.
 const LEAST_DEPTH: f64 = 0.1;
 
 /// Rows of boundary particles that move at one end of the particle domain.
@@ -50,7 +50,7 @@ pub struct EndState {
     /// For each row of an open end, how often it has released particles, minus how often it has taken particles.
     pub released: Vec<i64>,
     /// For each row of an open end, how many layers of particles it should still release [-], between -0.5 and 0.5.
-    pub owed: Vec<f64>,
+    pub layers_due: Vec<f64>,
 }
 
 impl MovingEnd {
@@ -62,7 +62,7 @@ impl MovingEnd {
     /// Creates an open end with the particle spacing `dp` [m].
     pub fn open(wavemaker: Wavemaker, inwards: f64, dp: f64) -> Self {
         let rows = wavemaker.row_heights_m().len();
-        let state = EndState { released: vec![0; rows], owed: vec![0.0; rows], ..EndState::default() };
+        let state = EndState { released: vec![0; rows], layers_due: vec![0.0; rows], ..EndState::default() };
         Self { wavemaker, inwards, open: Some(dp), state }
     }
 
@@ -96,7 +96,7 @@ impl MovingEnd {
     /// Updates the motion that absorbs returning waves, over a time step of length `dt` [s] that starts at the flume
     /// time `t` [s].
     fn absorb(&mut self, sampler: &Sampler, case: &Case, flume: Option<&FlumeRecord>, t: f64, dt: f64) {
-        let Some(&absorption) = self.wavemaker.absorption() else { return };
+        let Some(absorption) = self.wavemaker.absorption() else { return };
         let front = match self.open {
             Some(_) => self.wavemaker.rest_x_m(),
             None => self.wavemaker.x_at_surface_m(t) + self.state.absorbed.displacement_m,
@@ -110,16 +110,17 @@ impl MovingEnd {
         let generated = generated_elevation(&self.wavemaker, flume, absorption.gauge_m, x, t);
         // Without water at the gauge, there is no wave to absorb.
         let excess = measured.map_or(0.0, |z| z - case.flume.still_water_level - generated);
-        let absorption = match (self.open, flume) {
+        let absorbed = &mut self.state.absorbed;
+        match (self.open, flume) {
             (Some(_), Some(record)) => {
+                absorption.smooth(absorbed, excess, dt);
                 let (level, still) = (record.surface_level_m(front, t), case.flume.still_depth(front));
                 let depth = (level - case.flume.profile.z(front)).max(LEAST_DEPTH * still);
-                let smoothed = self.inwards * self.state.absorbed.excess_m();
-                absorption.for_finite_height(depth, smoothed, case.fluid.gravity)
+                let outward = outward_velocity_m_s(depth, absorbed.excess_m(), case.fluid.gravity);
+                absorption.move_by(absorbed, -self.inwards * outward, dt);
             }
-            _ => absorption,
-        };
-        absorption.advance(&mut self.state.absorbed, self.inwards * excess, dt);
+            _ => absorption.advance(absorbed, excess, dt),
+        }
     }
 }
 
@@ -170,18 +171,18 @@ impl Simulation {
         let place = end.wavemaker.rest_x_m();
         let level =
             self.flume.as_ref().map_or(self.case.flume.still_water_level, |flume| flume.surface_level_m(place, t))
-                + end.inwards * end.state.absorbed.excess_m();
+                + end.state.absorbed.excess_m();
         let rows = end.rows(t, 0.0);
         let mut taken = vec![f64::NEG_INFINITY; rows.len()];
         for (row, &[displacement, velocity]) in rows.iter().enumerate() {
             let advance = end.inwards * displacement;
             if advance >= dp {
                 end.state.released[row] += 1;
-                // The highest row in the water releases particles in proportion to its depth in the water.
+                // A row that is partly in the water releases particles in proportion to its depth in the water.
                 let depth = level - (end.wavemaker.row_heights_m()[row] - 0.5 * dp);
-                end.state.owed[row] += (depth / dp).clamp(0.0, 1.0);
-                if end.state.owed[row] >= 0.5 {
-                    end.state.owed[row] -= 1.0;
+                end.state.layers_due[row] += (depth / dp).clamp(0.0, 1.0);
+                if end.state.layers_due[row] >= 0.5 {
+                    end.state.layers_due[row] -= 1.0;
                     self.release(piston, row, place + displacement - 0.5 * end.inwards * dp, velocity);
                 }
             } else if advance < -TAKES_AT * dp {

@@ -32,9 +32,14 @@ const FLUME_MARGIN: f64 = 1.5;
 /// from the seaward end to the particles [-].
 const ARRIVAL_ALLOWANCE: f64 = 2.5;
 
-/// Share of the highest rise of the level at which the crest of a solitary wave has passed [-]. The force of a long wave
-/// goes with the square of its velocity, and so about with the square of the rise: it is then half of its maximum.
-const PASSED: f64 = 0.75;
+/// When the rise of the water level has fallen to this share of its maximum, the crest of a solitary wave has passed [-].
+/// The velocity of a long wave is about proportional to the rise. The force on a unit is then 56 % of its maximum if it
+/// is proportional to the square of the velocity, and 75 % if it is proportional to the velocity.
+const PASSED_SHARE: f64 = 0.75;
+
+/// Smallest rise of the water level that counts as a wave, divided by the particle spacing [-]. Particles do not resolve
+/// smaller waves.
+const LEAST_RISE: f64 = 0.05;
 
 /// Time constant, in wave periods, with which the rows of a piston return to their start positions against the drift of
 /// the water. With 4 wave periods, the return reduces the oscillation of the rows by only 1 / (2 pi 4)^2 / 2 = 0.08 %,
@@ -133,17 +138,21 @@ pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
 }
 
 /// Returns the time since the start of the particles at which the crest of a solitary wave has passed x [m] in the flume
-/// model [s]: the rise of the level since the start has fallen to [`PASSED`] of its maximum, or the run ends. 0 for
-/// other waves, or if x stays dry.
+/// model [s]: the water level above rest has fallen to [`PASSED_SHARE`] of its maximum. If it does not fall so far, the
+/// time is the duration of the run. 0 for other waves, or if the wave does not reach x.
 pub(crate) fn passing_time(case: &Case, record: Option<&FlumeRecord>, start: f64, x: f64) -> f64 {
     let (Some(record), Wave::Solitary(_) | Wave::SolitaryInflow(_)) = (record, &case.wave) else { return 0.0 };
-    let end = start + case.stop.duration;
-    let times = record.times_s().iter().filter(|time| (start..=end).contains(*time));
-    let rises: Vec<(f64, f64)> =
-        times.map(|&time| (time - start, record.elevation(x, time) - record.elevation(x, start))).collect();
-    let crest = rises.iter().copied().fold((0.0, 0.0), |highest, rise| if rise.1 > highest.1 { rise } else { highest });
-    let has_passed = |(time, rise): &&(f64, f64)| *time >= crest.0 && *rise <= PASSED * crest.1;
-    rises.iter().find(has_passed).map_or(case.stop.duration, |(time, _)| *time)
+    let rest = (case.flume.profile.z(x) - case.flume.still_water_level).max(0.0);
+    let rise = |time: &&f64| record.elevation(x, **time) - rest;
+    let in_run: Vec<&f64> =
+        record.times_s().iter().filter(|time| (start..=start + case.stop.duration).contains(*time)).collect();
+    let highest = in_run.iter().map(&rise).fold(0.0, f64::max);
+    if highest < LEAST_RISE * case.domain.dp {
+        return 0.0;
+    }
+    let mut since_crest = in_run.iter().skip_while(|time| rise(time) < highest);
+    let passed = since_crest.find(|time| rise(time) <= PASSED_SHARE * highest);
+    passed.map_or(case.stop.duration, |time| **time - start)
 }
 
 /// Returns the multi-layer piston for the wave of the case.
