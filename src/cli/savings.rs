@@ -23,6 +23,9 @@ const LARGEST_COURANT: f64 = 0.4;
 /// Smallest saving worth mentioning, as a share of the run time [-].
 const LEAST: f64 = 0.05;
 
+/// Key of the coarse water far from the units.
+pub(super) const COARSE_WATER: &str = "domain.fine_x_m";
+
 /// A change of a case, and what it saves.
 pub(super) struct Saving {
     /// Share of the run time [-].
@@ -85,7 +88,7 @@ fn changes(case: &Case) -> Vec<Change> {
         }
         if domain.regions.len() == 1 {
             let [seaward, shoreward] = ROOM.map(|room| FINE_MARGIN * domain.dp + room * height);
-            changes.push(vec![("domain.fine_x_m", json!([around(seaward, shoreward)]))]);
+            changes.push(vec![(COARSE_WATER, json!([around(seaward, shoreward)]))]);
         }
     }
     if case.numerics.cfl < LARGEST_COURANT {

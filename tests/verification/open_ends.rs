@@ -129,8 +129,8 @@ fn regular_waves_pass_through_open_ends() {
     println!("amplitudes {ratios:.4?} of the flume model, mean {mean:.4}");
     // Reached: 0.5 %. Limit 1 %, as for the solitary wave.
     assert!((mean - 1.0).abs() < 0.01);
-    // Reflected waves make the amplitudes differ between the gauges. Reached: 0.6 %, about the scatter of
-    // the mean of five periods. Limit 3 %, as for the solitary wave.
+    // Reflected waves make the amplitudes differ between the gauges. Reached: 0.6 %, about the scatter of the mean of
+    // five periods. Limit 3 %, as for the solitary wave.
     assert!(ratios.iter().all(|ratio| (ratio - mean).abs() < 0.03));
     let volume = late.iter().map(|r| r.volume).sum::<f64>() / late.len() as f64 - 1.0;
     println!("volume {:+.2} %", 100.0 * volume);
