@@ -4,12 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{
-    CommandError, counted,
-    input::load,
-    run,
-    savings::{COARSE_WATER, savings},
-};
+use super::{CommandError, counted, input::load, run, savings::savings};
 use crate::{
     case::{
         BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Reference, Sides,
@@ -203,12 +198,7 @@ fn print(case: &Case) {
 fn print_savings(case: &Case, path: &Path) {
     for (number, saving) in savings(case, path).iter().enumerate() {
         let label = if number == 0 { "savings" } else { "" };
-        let note = if saving.keys.starts_with(COARSE_WATER) {
-            "; coarse water weakens the push on the units (docs/limits.md)"
-        } else {
-            ""
-        };
-        println!("  {label:<12}{:.0} % of the run time with {}{note}", 100.0 * saving.share, saving.keys);
+        println!("  {label:<12}{:.0} % of the run time with {}", 100.0 * saving.share, saving.keys);
     }
 }
 

@@ -17,7 +17,7 @@ pub const SHARE_TO_GAUGE: f64 = 0.5;
 /// Smallest distance of an absorption gauge from the piston, divided by the particle spacing [-]. A nearer gauge would
 /// measure the gap between piston and water.
 pub(super) const NEAREST_GAUGE: f64 = 4.0;
-/// The same for the gauges of open ends, which measure the volume of the water within the kernel support [-].
+/// The same for the gauges of open ends, which measure the water between the end and twice this distance [-].
 pub(super) const NEAREST_OPEN_GAUGE: f64 = 6.0;
 /// Distance of the gauges of open ends, divided by the still water depth at the seaward end [-].
 const USUAL_GAUGE: f64 = 0.5;

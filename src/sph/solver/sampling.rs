@@ -158,20 +158,39 @@ impl Sampler<'_> {
     }
 
     /// Returns the depth of the water at x [m]: its volume per unit area of a flume of width `width` [m], with the
-    /// kernel as weight along x. This mean is as exact as the volumes of the particles, while a level from
-    /// [`Self::surface`] is on average a few hundredths of the particle spacing too high in disordered water.
+    /// kernel as weight along x.
     pub fn depth(&self, x: f64, width: f64) -> f64 {
-        let (grid, kernel) = (self.grid, self.kernel);
+        self.column_mean(x, self.kernel.support(), width, |_| 1.0)
+    }
+
+    /// Returns the depth of the water at x [m] whose own weight has the same pressure force on a vertical section:
+    /// sqrt(2 S), where S [m2] is the sum of (m / rho) (z - bed) per unit area of a flume of width `width` [m]. It is a
+    /// mean over the water within `reach` [m] along x.
+    ///
+    /// The force is rho g S per unit width if each particle carries the weight of the particles above it. Water flows
+    /// until this force is equal everywhere on a horizontal bed, also if the particles are less regular in one place than
+    /// in another. Their volume per unit area, and the level at which the sum of W V is 1/2, then differ by up to a tenth
+    /// of the particle spacing.
+    pub fn hydrostatic_depth(&self, x: f64, reach: f64, width: f64, bed: impl Fn(f64) -> f64) -> f64 {
+        (2.0 * self.column_mean(x, reach, width, |at| at.z - bed(at.x)).max(0.0)).sqrt()
+    }
+
+    /// Returns the sum over the particles of volume times `value`, per unit area of a flume of width `width` [m], as a
+    /// mean over x from `x - reach` to `x + reach` [m] with the kernel as weight.
+    fn column_mean(&self, x: f64, reach: f64, width: f64, value: impl Fn(DVec3) -> f64) -> f64 {
+        let grid = self.grid;
+        let kernel = Wendland::new(0.5 * reach);
         let [nx, ny, nz] = grid.count;
-        let bins = grid.along(0, x - kernel.support())..=grid.along(0, x + kernel.support());
+        let bins = grid.along(0, x - reach)..=grid.along(0, x + reach);
         let rows = (0..ny * nz).map(|row| row * nx);
         let members = rows.flat_map(|row| self.bins.start[row + bins.start()]..self.bins.start[row + bins.end() + 1]);
-        let volume = |b: u32| {
+        let part = |b: u32| {
             let b = b as usize;
-            let weight: f64 = kernel.shape(kernel.closeness((self.water.position[b].x - x).abs()));
-            weight * self.water.mass[b] / self.water.density[b]
+            let at = self.water.position[b];
+            let weight: f64 = kernel.shape(kernel.closeness((at.x - x).abs()));
+            weight * value(at) * self.water.mass[b] / self.water.density[b]
         };
         // The integral of the kernel without its constant factor, (1 - q/2)^4 (2q + 1), over a line is 4 h / 3.
-        members.map(volume).sum::<f64>() / (4.0 / 3.0 * kernel.h * width)
+        members.map(part).sum::<f64>() / (4.0 / 3.0 * kernel.h * width)
     }
 }

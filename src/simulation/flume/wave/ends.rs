@@ -104,7 +104,10 @@ impl MovingEnd {
         let (x, width) = (front + self.inwards * absorption.gauge_m, case.domain.width);
         let bed = case.flume.profile.z(x);
         let measured = match self.open {
-            Some(_) => Some(bed + sampler.depth(x, width)),
+            Some(_) => {
+                let bed_at = |x: f64| case.flume.profile.z(x);
+                Some(bed + sampler.hydrostatic_depth(x, absorption.gauge_m, width, bed_at))
+            }
             None => sampler.surface(DVec2::new(x, 0.5 * width), bed),
         };
         let generated = generated_elevation(&self.wavemaker, flume, absorption.gauge_m, x, t);
