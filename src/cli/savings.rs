@@ -15,8 +15,8 @@ use crate::sweep::key::set;
 /// units that move.
 const ENDS: f64 = 3.5;
 
-/// Step in the search of the distance, as a share of the still water depth at the seaward end of the domain [-].
-const STEP: f64 = 0.05;
+/// Number of steps in the search of the distance, from the units to the seaward end of the domain.
+const STEPS: u32 = 240;
 
 /// Largest Courant number that has been tested with waves and units; the default.
 const LARGEST_COURANT: f64 = 0.4;
@@ -93,11 +93,10 @@ fn changes(case: &Case) -> Vec<Change> {
 
 /// Returns the distance of the seaward end from units that begin at x = `low` [m]: [`ENDS`] times the depth there.
 fn distance_of_ends(case: &Case, low: f64) -> f64 {
-    let [seaward, _] = case.domain.x;
-    let step = STEP * case.flume.still_depth(seaward);
-    let distances = (1..).map(|number| f64::from(number) * step).take_while(|distance| low - distance > seaward);
+    let longest = low - case.domain.x[0];
+    let distances = (1..STEPS).map(|step| longest * f64::from(step) / f64::from(STEPS));
     let is_far = |distance: &f64| *distance >= ENDS * case.flume.still_depth(low - distance);
-    distances.into_iter().find(is_far).unwrap_or(low - seaward)
+    distances.into_iter().find(is_far).unwrap_or(longest)
 }
 
 #[cfg(test)]
