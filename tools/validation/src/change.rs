@@ -22,9 +22,9 @@ const SHOWN_ELSEWHERE: [&str; 3] = ["domain.dp_m", "numerics.cfl", "wave.height_
 /// Keys that must change with the number of units. If `units.count` is a change, these keys are not listed.
 const OF_ROW: [&str; 3] = ["domain.sides", "domain.width_m", "units.pitch_m"];
 
-/// Keys of a run with open ends that are not listed as changes. Such a domain is shorter and may have coarse water far
-/// from the units; the page names these runs below its table.
-const OF_OPEN_ENDS: [&str; 3] = ["wavemaker.kind", "domain.x_m", "domain.fine_x_m"];
+/// Keys of a run with open ends that are not listed as changes. Such a domain is shorter; the page names these runs
+/// below its table.
+const OF_OPEN_ENDS: [&str; 2] = ["wavemaker.kind", "domain.x_m"];
 
 /// A key whose value differs from the base case.
 #[derive(Debug, Clone, PartialEq)]

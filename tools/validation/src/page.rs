@@ -156,8 +156,7 @@ fn add_table(page: &mut Page, base: &[&Compared]) {
         base.iter().filter(with_open_ends).map(|result| format!("`{}`", result.run.name)).collect();
     if !names.is_empty() {
         page.add(&format!(
-            "These runs have open ends nearer to the units than the wavemaker of the other runs, and coarse water far \
-             from the units: {}.",
+            "These runs have a shorter particle domain than the other runs, with open ends: {}.",
             joined(&names)
         ));
     }
