@@ -157,7 +157,6 @@ mod tests {
         case["domain"]["x_m"] = json!([37.9, 40.15]);
         assert_eq!(changes(&case).len(), 1);
         case["wavemaker"] = json!({ "kind": "open_ends" });
-        case["domain"]["fine_x_m"] = json!([[38.7, 39.35]]);
         assert_eq!(changes(&case), []);
     }
 
