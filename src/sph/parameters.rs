@@ -1,5 +1,6 @@
 //! Constants of the numerical scheme, derived once from the case.
 
+use super::terms::acoustic_damping::AcousticDamping;
 use super::terms::density_diffusion::{DensityDiffusion, Diffusion};
 use super::terms::equation_of_state::Tait;
 use super::terms::kernel::Wendland;
@@ -42,6 +43,10 @@ pub struct Parameters {
     pub slip: WallSlip,
     /// True if, under mDBC, pressure acts on units through gaps that are too narrow for water particles.
     pub gap_pressure: bool,
+    /// Lowest density of the water [kg/m3]: water under stronger suction fills with air. 0 without a limit.
+    pub lowest_density: f64,
+    /// Damping of sound, if any.
+    pub acoustic_damping: Option<AcousticDamping>,
     /// Particle shifting, if any.
     pub shifting: Option<Shifting>,
     /// Width of the flume [m] if it is periodic across its width.
@@ -66,6 +71,8 @@ impl Parameters {
             boundary: BoundaryCondition::ModifiedDynamic,
             slip: WallSlip::Original,
             gap_pressure: true,
+            lowest_density: 0.0,
+            acoustic_damping: None,
             shifting: None,
             periodic_width,
         }

@@ -93,8 +93,9 @@ fn title_stop_rules_and_intervals_may_change() {
     let times: Vec<f64> = gauges.lines().skip(1).map(|row| row.split(',').next().unwrap().parse().unwrap()).collect();
     // Every 5 ms up to 0.2 s, then every 20 ms up to 0.3 s, and the last row: 0.22, 0.24, 0.26, 0.28 and 0.3 s.
     let late: Vec<f64> = times.iter().copied().filter(|time| *time > 0.2005).collect();
+    // Limit 2 ms: a row is written at the first time step after its time.
     assert_eq!(times.iter().filter(|time| **time < 0.1995).count(), 40);
-    assert!((5..=6).contains(&late.len()) && (late[0] - 0.22).abs() < 1e-3, "{late:?}");
+    assert!((5..=6).contains(&late.len()) && (late[0] - 0.22).abs() < 2e-3, "{late:?}");
     assert!(Path::new(&dir).join("fluid.vtkhdf").exists());
 }
 

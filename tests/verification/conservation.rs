@@ -6,6 +6,7 @@ use breakwater::sph::{
     parameters::Parameters,
     solver::step::Solver,
     terms::{
+        acoustic_damping::AcousticDamping,
         density_diffusion::{DensityDiffusion, Diffusion},
         shifting::Shifting,
         turbulence::Smagorinsky,
@@ -151,7 +152,7 @@ fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
 /// Quantities that each term conserves:
 /// | term | momentum | angular momentum |
 /// | --- | --- | --- |
-/// | pressure, artificial viscosity, density diffusion of any kind | kept | kept |
+/// | pressure, artificial viscosity, acoustic damping, density diffusion of any kind | kept | kept |
 /// | laminar viscosity: force along v_ab, not along r_ab | kept | not kept |
 /// | sub-particle-scale stress: force along tau r_ab | kept | not kept |
 /// | shifting: moves particles without changing their velocities | kept | not kept |
@@ -172,6 +173,9 @@ fn only_pair_forces_along_r_keep_angular_momentum() {
     keeps_both("no diffusion", &|p| p.diffusion = Diffusion::none());
     keeps_both("diffusion of Antuono et al.", &|p| {
         p.diffusion = Diffusion::new(DensityDiffusion::Antuono, 0.1, p.kernel.h, &p.tait, 0.0);
+    });
+    keeps_both("acoustic damping", &|p| {
+        p.acoustic_damping = Some(AcousticDamping::new(0.5, p.kernel.h, p.tait.c0));
     });
     let keeps_momentum = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
         let drift = run(name, adjust);

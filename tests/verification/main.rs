@@ -32,6 +32,7 @@ mod tanks;
 mod two_dimensional;
 mod two_dimensional_units;
 mod unit_in_stream;
+mod violent_water;
 mod viscous_flow;
 mod wavemaker;
 mod waves;

@@ -31,6 +31,10 @@ pub struct Numerics {
     pub density_diffusion: DensityDiffusion,
     /// Coefficient delta of density diffusion [-].
     pub delta: f64,
+    /// Coefficient alpha_2 of the acoustic damping [-]; 0 for no damping.
+    pub acoustic_damping: f64,
+    /// Largest suction in the water, divided by rho0 g h [-]; `None` without a limit.
+    pub suction_limit: Option<f64>,
     /// Coefficient A of particle shifting [-]; 0 for no shifting.
     pub shifting: f64,
     /// Courant number C, which limits the time step [-].
@@ -107,6 +111,20 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         "water has 1e-6",
     );
     check.number(
+        "numerics.acoustic_damping",
+        file.acoustic_damping.unwrap_or(0.0),
+        at_least(0.0).up_to(2.0),
+        "",
+        "0 for none; 0.5 damps the sound of impacts in a few milliseconds",
+    );
+    check.number(
+        "numerics.suction_limit",
+        file.suction_limit.unwrap_or(1.0),
+        at_least(0.0).up_to(1e6),
+        "",
+        "1 is usual: a water column as high as the smoothing length",
+    );
+    check.number(
         "numerics.shifting_coefficient",
         file.shifting_coefficient,
         at_least(0.0).up_to(10.0),
@@ -142,6 +160,7 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
             file.boundary_layers
         ));
     }
+    let mirrors_velocities = wall_slip != WallSlip::Original;
     Some(Numerics {
         h,
         viscosity: file.viscosity,
@@ -149,6 +168,8 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         nu: file.kinematic_viscosity_m2_s,
         density_diffusion: file.density_diffusion,
         delta: file.diffusion_delta,
+        acoustic_damping: file.acoustic_damping.unwrap_or(if mirrors_velocities { 0.5 } else { 0.0 }),
+        suction_limit: file.suction_limit.or(mirrors_velocities.then_some(1.0)),
         shifting: file.shifting_coefficient,
         cfl: file.cfl,
         boundary: file.boundary,

@@ -6,6 +6,7 @@ use crate::{
         parameters::{BoundaryCondition, Parameters},
         solver::backend,
         terms::{
+            acoustic_damping::AcousticDamping,
             density_diffusion::{DensityDiffusion, Diffusion},
             equation_of_state::Tait,
             kernel::Wendland,
@@ -33,6 +34,7 @@ pub fn parameters(case: &Case) -> Parameters {
         case::Sides::Periodic | case::Sides::Walls => Wendland::new(numerics.h),
     };
     let shifting = Shifting { coefficient: numerics.shifting, h: numerics.h, dp, dimensions: kernel.dimensions() };
+    let damping = AcousticDamping::new(numerics.acoustic_damping, numerics.h, tait.c0);
     let laminar = |turbulence| Viscosity::Laminar { nu: numerics.nu, turbulence };
     Parameters {
         dp,
@@ -44,6 +46,9 @@ pub fn parameters(case: &Case) -> Parameters {
             case::Viscosity::LaminarSps => laminar(Some(Smagorinsky::new(dp))),
         },
         diffusion: Diffusion::new(diffusion, numerics.delta, numerics.h, &tait, fluid.gravity),
+        lowest_density: numerics
+            .suction_limit
+            .map_or(0.0, |limit| tait.density_under_suction(limit, fluid.gravity, numerics.h)),
         tait,
         slip: match numerics.wall_slip {
             case::WallSlip::Original => WallSlip::Original,
@@ -51,6 +56,7 @@ pub fn parameters(case: &Case) -> Parameters {
             case::WallSlip::FreeSlip => WallSlip::FreeSlip,
         },
         gap_pressure: numerics.gap_pressure,
+        acoustic_damping: (numerics.acoustic_damping > 0.0).then_some(damping),
         shifting: (numerics.shifting > 0.0).then_some(shifting),
         own_x: case.domain.own_x,
         gravity: fluid.gravity,

@@ -356,7 +356,7 @@ impl DeviceMemory for GpuSolver {
 }
 
 fn rates_of(values: &[[f32; 4]]) -> Vec<Rate> {
-    let rate = |&[x, y, z, density]: &[f32; 4]| Rate { acceleration: [x, y, z], density, approach: 0.0 };
+    let rate = |&[x, y, z, density]: &[f32; 4]| Rate { acceleration: [x, y, z], density, ..Rate::default() };
     values.iter().map(rate).collect()
 }
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::grid::Grid;
 use crate::sph::parameters::Parameters;
 
-/// Data of a particle that its neighbours need, in single precision, 48 bytes.
+/// Data of a particle that its neighbours need, in single precision, 52 bytes.
 ///
 /// x is split into a bin index and an offset in the bin, so that differences keep their precision in flumes of any
 /// length. y and z are relative to the middle of the grid.
@@ -27,8 +27,10 @@ pub struct Record {
     pub volume: f32,
     /// rho - rho0 [kg/m3].
     pub excess_density: f32,
-    /// Pressure [Pa].
+    /// Pressure, including the pressure of the acoustic damping [Pa].
     pub pressure: f32,
+    /// Pressure of the acoustic damping [Pa].
+    pub damping: f32,
     /// Speed of sound [m/s].
     pub sound_speed: f32,
     /// Volume of the particle in the density diffusion [m3]. It is zero for boundary particles under DBC, because their
@@ -72,7 +74,16 @@ pub fn record(
         volume,
         excess_density: (density - tait.rho0) as f32,
         pressure: tait.pressure(density) as f32,
+        damping: 0.0,
         sound_speed: tait.sound_speed(density) as f32,
         diffusive_volume: if diffuses { volume } else { 0.0 },
+    }
+}
+
+impl Record {
+    /// Adds a pressure of the acoustic damping [Pa].
+    pub fn add_damping(&mut self, pressure: f32) {
+        self.damping += pressure;
+        self.pressure += pressure;
     }
 }

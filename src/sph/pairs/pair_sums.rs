@@ -244,10 +244,12 @@ impl<L: Lanes> Sums<L> {
             std::array::from_fn(|k| ((self.force[k] + self.shear[k]) * minus_per_mass).to_array());
         let diffusion_factor = L::splat(constants.diffusion.factor()) * a.diffuses;
         let density = (scale * self.diffusion.mul_add(diffusion_factor, self.compression)).to_array();
+        let compression = (scale * self.compression).to_array();
         let approach = (L::splat(constants.h) * self.fastest).to_array();
         std::array::from_fn(|lane| Rate {
             acceleration: [ax[lane], ay[lane], az[lane]],
             density: density[lane],
+            compression: compression[lane],
             approach: approach[lane],
         })
     }

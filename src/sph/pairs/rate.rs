@@ -7,6 +7,8 @@ pub struct Rate {
     pub acceleration: [f32; 3],
     /// d rho / dt [kg/(m3 s)].
     pub density: f32,
+    /// Compression, -rho div v: d rho / dt without density diffusion [kg/(m3 s)].
+    pub compression: f32,
     /// Largest |mu_ab| of equation 3 over all neighbours b, also those that move away [m/s].
     pub approach: f32,
 }

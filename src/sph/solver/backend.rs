@@ -194,6 +194,12 @@ pub fn unsupported_on_gpu(parameters: &Parameters) -> Option<&'static str> {
     if !parameters.gap_pressure {
         return Some("units without gap pressure (numerics.gap_pressure = false)");
     }
+    if parameters.lowest_density > 0.0 {
+        return Some("a limit of the suction (numerics.suction_limit)");
+    }
+    if parameters.acoustic_damping.is_some() {
+        return Some("acoustic damping (numerics.acoustic_damping)");
+    }
     parameters.shifting.map(|_| "particle shifting (numerics.shifting_coefficient)")
 }
 

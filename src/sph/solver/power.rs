@@ -7,8 +7,9 @@
 //!   sum_a m_a (v_a . dv_a/dt + p_a / rho_a^2 d rho_a/dt)     without viscosity and diffusion
 //!
 //! is the power of bed, walls, wavemaker and units. The power of viscosity is the same sum with only the rates caused
-//! by viscosity, and the power of diffusion is the sum with only the rates caused by diffusion. Gravity is omitted,
-//! because it only converts kinetic energy to potential energy and back.
+//! by viscosity, plus the power of the acoustic damping, which is a bulk viscosity. The power of diffusion is the sum
+//! with only the rates caused by diffusion. Gravity is omitted, because it only converts kinetic energy to potential
+//! energy and back.
 
 use glam::DVec3;
 
@@ -25,7 +26,7 @@ use crate::sph::{
 pub struct Powers {
     /// Power of bed, walls, wavemaker and units through pressure.
     pub boundary: f64,
-    /// Power of viscosity. It is negative (dissipation), unless moving walls drag the water along.
+    /// Power of viscosity and acoustic damping. It is negative (dissipation), unless moving walls drag the water along.
     pub viscosity: f64,
     /// Power of density diffusion.
     pub diffusion: f64,
@@ -67,9 +68,12 @@ impl Powers {
             // Power per mass and per d rho/dt: p / rho^2 [J m3/kg2].
             let per_rate = tait.pressure(density) / (density * density);
             let (of_all, of_pressure) = (f64::from(all.density), f64::from(pressure.density));
+            let damping = parameters
+                .acoustic_damping
+                .map_or(0.0, |damping| damping.power_density(f64::from(all.compression), density) * mass / density);
             [
                 mass * (water.velocity[a].dot(vector(pressure)) + per_rate * of_pressure),
-                mass * water.velocity[a].dot(vector(all) - vector(pressure)),
+                mass * water.velocity[a].dot(vector(all) - vector(pressure)) + damping,
                 mass * per_rate * (of_all - of_pressure),
                 mass / density,
                 mass / density * (of_pressure / density).powi(2),

@@ -168,6 +168,7 @@ impl Solver {
                 let (wall, free_slip) = (boundary.velocity[i], boundary.allows_free_slip[i]);
                 let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], free_slip);
                 *out = record(grid, parameters, boundary.position[i], velocity, density[i], mass, diffuses);
+                out.add_damping(ghost.map_or(0.0, |ghost| ghost.damping));
             });
         };
         fill(of_walls, &walls.bins.order, 0);
@@ -261,6 +262,7 @@ impl Solver {
         let half = std::mem::take(&mut self.half);
         self.fill_water_records(State { mass: &water.mass, ..State::from_water(&half) });
         self.half = half;
+        self.add_damping_to_water();
         if self.mirrors_velocities() {
             // With the velocities of the start, sound waves near walls grow at Courant numbers from 0.3.
             let Self { ghosts, ghost_velocities, grid, parameters, records, .. } = self;
@@ -270,6 +272,14 @@ impl Solver {
         let from_nodes = self.parameters.boundary == BoundaryCondition::ModifiedDynamic;
         self.fill_boundary_records(boundary, if from_nodes { &boundary.density } else { &half_density });
         self.half_density = half_density;
+    }
+
+    /// Adds the pressure of the acoustic damping to the records of the water, from the rates at the start of the time
+    /// step.
+    fn add_damping_to_water(&mut self) {
+        let Some(damping) = self.parameters.acoustic_damping else { return };
+        let pairs = self.records.par_iter_mut().zip(&self.water.rates).with_min_len(MIN_CHUNK);
+        pairs.for_each(|(record, rate)| record.add_damping(damping.pressure(rate.compression)));
     }
 
     /// Under DBC, computes the half-step densities of the boundary particles by equation 9.1.
@@ -297,7 +307,8 @@ impl Solver {
     /// Corrector, equations 8.3, 8.4 and 9.2: computes the state at the end of the time step.
     pub fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary) {
         let gravity = DVec3::NEG_Z * self.parameters.gravity;
-        let (half, grid, gradients, shifting) = (&self.half, &self.grid, &self.gradients, self.parameters.shifting);
+        let (half, grid, gradients) = (&self.half, &self.grid, &self.gradients);
+        let Parameters { shifting, lowest_density, .. } = self.parameters;
         (&mut water.position, &mut water.velocity, &mut water.density, &self.water.rates)
             .into_par_iter()
             .enumerate()
@@ -312,6 +323,10 @@ impl Solver {
                 *position = grid.wrap(*position + moved);
                 *velocity = end_velocity;
                 *density = end_density(*density, half.density[i], f64::from(rate.density), dt);
+                // Not `max`, which would hide NaN.
+                if *density < lowest_density {
+                    *density = lowest_density;
+                }
             });
         if self.parameters.boundary == BoundaryCondition::Dynamic {
             for (particle, rate) in self.boundary_rates() {

@@ -27,6 +27,13 @@ impl Tait {
         self.rho0 * (1.0 + p / self.stiffness()).powf(1.0 / self.gamma)
     }
 
+    /// Returns the density of water under the suction s rho0 g h [kg/m3], the pressure of a water column s times as high
+    /// as the smoothing length h [m]. Returns 0 if this suction is impossible.
+    pub fn density_under_suction(&self, s: f64, g: f64, h: f64) -> f64 {
+        let suction = s * self.rho0 * g * h;
+        if suction < self.stiffness() { self.density(-suction) } else { 0.0 }
+    }
+
     /// Returns the speed of sound c = c0 (rho/rho0)^((gamma-1)/2) [m/s].
     pub fn sound_speed(&self, rho: f64) -> f64 {
         self.c0 * self.power(rho / self.rho0, 0.5 * (self.gamma - 1.0))
@@ -57,6 +64,13 @@ mod tests {
             // Limit: 1e-9 of the factor c0^2 rho0 / gamma = 6e4 Pa, for rounding.
             assert!((WATER.pressure(WATER.density(p)) - p).abs() < 1e-9 * 6e4);
         }
+    }
+
+    #[test]
+    fn suction_is_a_column_of_water() {
+        let lowest = WATER.density_under_suction(2.0, 9.81, 0.03);
+        assert!((WATER.pressure(lowest) + 2.0 * 1000.0 * 9.81 * 0.03).abs() < 1e-6);
+        assert_eq!(WATER.density_under_suction(1e6, 9.81, 0.03), 0.0);
     }
 
     #[test]

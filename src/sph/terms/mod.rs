@@ -9,6 +9,7 @@
 //! | [`turbulence`] | sub-particle-scale stress |
 //! | [`density_diffusion`] | 4 and 5: density diffusion |
 //! | [`equation_of_state`] | 6: Tait |
+//! | [`acoustic_damping`] | damping of sound |
 //! | [`wall_slip`] | velocity of boundary particles in the equations of the water |
 //! | [`shifting`] | particle shifting |
 //!
@@ -18,6 +19,7 @@
 //! the distance |r_ab|, grad_a W_ab its gradient with respect to r_a, and h the smoothing length. rho0 is the reference
 //! density, c0 the speed of sound at rho0 and gamma the exponent of the equation of state.
 
+pub mod acoustic_damping;
 pub mod continuity;
 pub mod density_diffusion;
 pub mod equation_of_state;

@@ -2,8 +2,9 @@
 //! ends.
 //!
 //! The powers [W] are evaluated at each row of `energy.csv` and integrated by the trapezoidal rule. The sum differs
-//! from the change of the water's energy for two reasons: time integration and trapezoidal rule have errors, and
-//! impermeable surfaces remove kinetic energy that is not counted here.
+//! from the change of the water's energy for three reasons: time integration and trapezoidal rule have errors;
+//! impermeable surfaces remove kinetic energy; and the limit of the suction removes energy of compression. Neither of
+//! these two energies is counted here.
 
 use serde::{Deserialize, Serialize};
 

@@ -159,7 +159,7 @@ impl<'a> Source<'a> {
             }
             _ => density,
         };
-        let rate = Rate { acceleration: [ax, ay, az].map(|a| a as f32), density: change as f32, approach: 0.0 };
+        let rate = Rate { acceleration: [ax, ay, az].map(|a| a as f32), density: change as f32, ..Rate::default() };
         Some(Interpolated { velocity: DVec3::new(u, v, w), density, rate })
     }
 }
