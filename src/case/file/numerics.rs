@@ -20,12 +20,12 @@ pub struct NumericsFile {
     pub density_diffusion: DensityDiffusion,
     /// Coefficient delta of density diffusion [-] (equation 4).
     pub diffusion_delta: f64,
-    /// Coefficient alpha_2 of the acoustic damping, which damps the sound of impacts [-]. Default: 0.5, but 0 if the slip
-    /// condition of the walls is `original`, as in Mitsui et al.
+    /// Coefficient alpha_2 of the acoustic damping, which damps the sound of impacts [-]. Default: 0.5, but 0 if the
+    /// slip condition of the walls is `original`, as in Mitsui et al.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub acoustic_damping: Option<f64>,
-    /// Largest suction in the water, divided by rho0 g h [-]. Water under more suction fills with air. Default: 1, but no
-    /// limit if the slip condition of the walls is `original`, as in Mitsui et al.
+    /// Largest suction in the water, divided by rho0 g h [-]. Water under more suction fills with air. Default: 1, but
+    /// no limit if the slip condition of the walls is `original`, as in Mitsui et al.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub suction_limit: Option<f64>,
     /// Coefficient A of particle shifting [-]: 0 for no shifting. A usual value is 2.

@@ -3,10 +3,10 @@
 //!
 //!   q_a = -alpha_2 h c0 rho_a div v_a
 //!
-//! to the pressure p_a of equation 1. alpha_2 is a coefficient; [`terms`](super) defines the other symbols. A sound wave
-//! with the wave number k decays at the rate alpha_2 h c0 k^2 / 2. The total force in equation 1 contains the sum
-//! q_a + q_b, so damping conserves momentum and angular momentum. Its power is
-//! -sum_a V_a alpha_2 h c0 rho_a (div v_a)^2, which is never positive.
+//! to the pressure p_a of equation 1. alpha_2 is a coefficient; [`terms`](super) defines the other symbols. A sound
+//! wave with the wave number k decays at the rate alpha_2 h c0 k^2 / 2. The total force in equation 1 contains the sum
+//! q_a + q_b, so damping conserves momentum and angular momentum. Its power is -sum_a V_a alpha_2 h c0 rho_a (div
+//! v_a)^2, which is never positive.
 //!
 //! rho_a div v_a is minus the compression, the sum of equation 2 without density diffusion. The rates at the half step
 //! need q_a first. Therefore q_a follows from the compression at the start of the time step. The rates at the start

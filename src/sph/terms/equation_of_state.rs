@@ -27,8 +27,8 @@ impl Tait {
         self.rho0 * (1.0 + p / self.stiffness()).powf(1.0 / self.gamma)
     }
 
-    /// Returns the density of water under the suction s rho0 g h [kg/m3], the pressure of a water column s times as high
-    /// as the smoothing length h [m]. Returns 0 if this suction is impossible.
+    /// Returns the density of water under the suction s rho0 g h [kg/m3], the pressure of a water column s times as
+    /// high as the smoothing length h [m]. Returns 0 if this suction is impossible.
     pub fn density_under_suction(&self, s: f64, g: f64, h: f64) -> f64 {
         let suction = s * self.rho0 * g * h;
         if suction < self.stiffness() { self.density(-suction) } else { 0.0 }

@@ -31,8 +31,8 @@ impl WallSlip {
     /// [`Boundary::allows_free_slip`]), `FreeSlip` uses the tangential velocity of the wall.
     ///
     /// Density and normal velocity come from the same interpolation, also in thin sheets of water. Then the work of the
-    /// mirrored density on the water and the compression by the mirrored velocity balance, and a fixed wall gives the
-    /// water no energy.
+    /// mirrored density on the water and the compression by the mirrored velocity nearly balance, and a fixed wall
+    /// hardly changes the energy of the water.
     ///
     /// [`Boundary::allows_free_slip`]: crate::sph::particles::boundary::Boundary::allows_free_slip
     pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3, free_slip: bool) -> DVec3 {
