@@ -141,7 +141,8 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
     summary(units).write(folder)?;
     let mut profile = CsvSeries::create(&folder.join("profile.csv"), &columns::PROFILE)?;
     profile.append_rows(CORNERS)?;
-    let names = [columns::elevation("WG6"), columns::elevation("WG7"), columns::pressure("P1")];
+    let [now, mean] = columns::pressure("P1");
+    let names = [columns::elevation("WG6"), columns::elevation("WG7"), now, mean];
     let velocity = columns::velocity("ADV");
     let gauge_columns: Vec<&str> =
         std::iter::once("time_s").chain(names.iter().chain(&velocity).map(String::as_str)).collect();
@@ -153,7 +154,8 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
         let t = 0.01 * f64::from(i);
         let ripple = 0.0006 * (9.0 * t).sin();
         let (eta6, eta7) = (crest(t, 1.6, 0.0575), crest(t, 2.7, 0.061));
-        gauges.append(&[t, eta6 + ripple, eta7 + ripple, 780.0 + 9000.0 * eta7, 3.0 * eta7, 0.0, 0.3 * ripple])?;
+        let pressure = 780.0 + 9000.0 * eta7;
+        gauges.append(&[t, eta6 + ripple, eta7 + ripple, pressure, pressure, 3.0 * eta7, 0.0, 0.3 * ripple])?;
         flume.append(&[t, eta6, eta7 + 0.001])?;
         energy.append(&[
             t,

@@ -158,9 +158,10 @@ pub fn elevation(name: &str) -> String {
     format!("{name}_eta_m")
 }
 
-/// Returns the column name of the pressure [Pa] at the gauge `name`.
-pub fn pressure(name: &str) -> String {
-    format!("{name}_p_pa")
+/// Returns the column names of the pressure [Pa] at the gauge `name`: at the time of the row, and as a mean over the time
+/// since the last row.
+pub fn pressure(name: &str) -> [String; 2] {
+    ["p", "p_mean"].map(|kind| format!("{name}_{kind}_pa"))
 }
 
 /// Returns the column names of the three velocity components [m/s] at the gauge `name`.

@@ -42,8 +42,8 @@ pub use schedule::Schedule;
 pub use series::CsvSeries;
 pub use size::OutputSize;
 pub use summary::{
-    BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, Stopped, Summary, TimeStepSummary,
-    UnitSummary, WaveSummary,
+    BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, PressureSummary, Stopped, Summary,
+    TimeStepSummary, UnitSummary, WaveSummary,
 };
 pub use table::Table;
 pub use unit_surface::UnitSurface;

@@ -32,6 +32,9 @@ pub struct Summary {
     pub wave: Option<WaveSummary>,
     /// Highest surface elevation at each elevation gauge.
     pub gauges: Vec<GaugeSummary>,
+    /// Highest pressure at each pressure gauge in the particle domain.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pressure_gauges: Vec<PressureSummary>,
     /// Numbers and largest values of the contact events in the whole run.
     pub contacts: ContactSummary,
     /// Total energy at the start and the end; `None` if it was not recorded.
@@ -169,6 +172,20 @@ pub struct GaugeSummary {
     pub crest_sph_m: Option<f64>,
     /// Highest elevation above still water level in the flume model [m]; `None` without flume model.
     pub crest_flume_m: Option<f64>,
+}
+
+/// Highest pressures at a pressure gauge.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct PressureSummary {
+    /// Name of the gauge.
+    pub name: String,
+    /// Initial position [x, y, z] [m].
+    pub at_m: [f64; 3],
+    /// Highest mean over `output.series_interval_s` [Pa]; `None` if the gauge was always dry, or if a graphics card
+    /// computed the water.
+    pub highest_mean_pa: Option<f64>,
+    /// Highest of the pressures at the times of the rows of `gauges.csv` [Pa]; `None` if the gauge was dry at these times.
+    pub highest_pa: Option<f64>,
 }
 
 /// Numbers and largest values of the contact events of all units.

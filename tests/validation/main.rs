@@ -4,6 +4,7 @@
 //! next to the repository, the tests also compare with the full series. The last line of a test run states how many
 //! comparisons with full series were left out.
 
+mod box_impact;
 mod dam_break;
 mod dam_break_3d;
 mod data;

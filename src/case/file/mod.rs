@@ -110,16 +110,17 @@ pub struct FluidFile {
     pub density_kg_m3: f64,
     /// Gravitational acceleration [m/s2].
     pub gravity_m_s2: f64,
-    /// Artificial speed of sound / sqrt(g d) [-], with the largest initial water depth d in the domain. With 10, the
-    /// density varies by less than 1 % if the velocity of the water is below sqrt(g d), the celerity of a long wave.
-    /// With 15, hydrostatic compression makes still water less than 0.25 % too heavy.
-    pub sound_speed_factor: f64,
+    /// Artificial speed of sound / sqrt(g d) [-], with the largest initial water depth d in the domain. The density
+    /// varies by less than 1 % if the speed of sound is ten times the speed of the water. Default: 15 for waves; then
+    /// hydrostatic compression makes still water less than 0.25 % too heavy. 20 for a block of water that collapses,
+    /// because its front can reach 2 sqrt(g d).
+    pub sound_speed_factor: Option<f64>,
     /// Exponent gamma of Tait's equation of state [-].
     pub tait_exponent: f64,
 }
 
 impl Default for FluidFile {
     fn default() -> Self {
-        Self { density_kg_m3: 1000.0, gravity_m_s2: 9.81, sound_speed_factor: 15.0, tait_exponent: 7.0 }
+        Self { density_kg_m3: 1000.0, gravity_m_s2: 9.81, sound_speed_factor: None, tait_exponent: 7.0 }
     }
 }

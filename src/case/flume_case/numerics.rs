@@ -1,6 +1,7 @@
 //! Validates the properties of the water and the settings of the SPH scheme.
 
 use crate::case::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Viscosity, WallSlip};
+use crate::case::flume::domain::{Domain, Water};
 use crate::case::reading::check::{Checker, at_least, upper_limit};
 
 /// Properties of the water; SI units.
@@ -53,9 +54,19 @@ pub struct Numerics {
     pub hold_units: f64,
 }
 
-/// Validates the constants of the water. The speed of sound follows from `depth`, the largest initial depth [m].
-pub fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker) -> Option<Fluid> {
+/// Default speed of sound / sqrt(g d) [-] for waves in still water of the depth d.
+const SOUND_FACTOR_OF_WAVES: f64 = 15.0;
+
+/// Default speed of sound / sqrt(g d) [-] for a block of water of the height d that collapses on a dry bed: ten times the
+/// largest speed of its front, 2 sqrt(g d) (Ritter 1892).
+const SOUND_FACTOR_OF_BLOCKS: f64 = 20.0;
+
+/// Validates the constants of the water. The speed of sound follows from the largest initial depth in the `domain`.
+pub fn validate_fluid(file: &FluidFile, domain: Option<&Domain>, check: &mut Checker) -> Option<Fluid> {
     let before = check.count();
+    let is_block = domain.is_some_and(|domain| matches!(domain.water, Water::Block { .. }));
+    let default = if is_block { SOUND_FACTOR_OF_BLOCKS } else { SOUND_FACTOR_OF_WAVES };
+    let sound_speed_factor = file.sound_speed_factor.unwrap_or(default);
     check.number(
         "fluid.density_kg_m3",
         file.density_kg_m3,
@@ -72,7 +83,7 @@ pub fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker)
     );
     check.number(
         "fluid.sound_speed_factor",
-        file.sound_speed_factor,
+        sound_speed_factor,
         at_least(5.0).up_to(200.0),
         "",
         "values from 10 to 20 keep density changes below about 1 %; larger values need shorter time steps",
@@ -81,7 +92,7 @@ pub fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker)
     if check.count() > before {
         return None;
     }
-    let sound_speed = file.sound_speed_factor * (file.gravity_m_s2 * depth?).sqrt();
+    let sound_speed = sound_speed_factor * (file.gravity_m_s2 * domain?.depth).sqrt();
     Some(Fluid { rho0: file.density_kg_m3, gravity: file.gravity_m_s2, gamma: file.tait_exponent, sound_speed })
 }
 

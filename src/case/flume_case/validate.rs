@@ -34,7 +34,7 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
     let materials = materials::validate(&file.materials, &file.friction, ground_material(file, check), check);
     let flume = bed::validate(&file.flume, materials.ground, check);
     let domain = domain::validate(&file.domain, flume.as_ref(), file.numerics.smoothing_factor, check);
-    let fluid = numerics::validate_fluid(&file.fluid, domain.as_ref().map(|domain| domain.depth), check);
+    let fluid = numerics::validate_fluid(&file.fluid, domain.as_ref(), check);
     let stop = stop::validate(&file.stop, file.units.is_some(), check);
     let numerics = validate_numerics(file, &stop, check);
     let wavemaker = wavemaker::validate(&file.wavemaker, &file.wave, flume.as_ref(), domain.as_ref(), check);

@@ -158,7 +158,8 @@ fn other_gauges(table: Option<&Table>) -> Vec<String> {
         |chart: String, name: &str| format!("<figure><figcaption>{}</figcaption>{chart}</figure>", escape(name));
     for column in table.names() {
         if let Some(gauge) = column.strip_suffix("_p_pa") {
-            let lines = column_line(Some(table), column, "", 0, false).into_iter().collect();
+            let mean = column_line(Some(table), &format!("{gauge}_p_mean_pa"), "mean since the last row", 1, false);
+            let lines = column_line(Some(table), column, "at the time", 0, false).into_iter().chain(mean).collect();
             charts.push(figure(line_chart(gauge, "pressure [Pa]", lines, HALF), gauge));
         } else if let Some(gauge) = column.strip_suffix("_u_m_s") {
             let lines = [("u", 0), ("v", 2), ("w", 1)].into_iter().filter_map(|(component, colour)| {

@@ -163,6 +163,7 @@ fn water(run: &RunFolder) -> String {
     }
     content += "</p>\n";
     content += &gauge_table(&run.summary);
+    content += &pressure_table(&run.summary);
     content += &format!("<div class=\"pair\">\n{}\n</div>\n", charts.join("\n"));
     section("Water at the gauges", &content)
 }
@@ -192,6 +193,27 @@ fn gauge_table(summary: &Summary) -> String {
     format!(
         "<div class=\"scroll\"><table>\n<thead><tr><th>Gauge</th><th>x [m]</th><th>Crest, particles [cm]</th>\
          <th>Crest, flume model [cm]</th><th>Particles minus flume model [%]</th></tr></thead>\n\
+         <tbody>\n{rows}</tbody></table></div>\n"
+    )
+}
+
+fn pressure_table(summary: &Summary) -> String {
+    if summary.pressure_gauges.is_empty() {
+        return String::new();
+    }
+    let kilopascals = |pressure: Option<f64>| pressure.map_or("\u{2013}".to_owned(), |p| format!("{:.2}", 1e-3 * p));
+    let rows: String = (summary.pressure_gauges.iter())
+        .map(|g| {
+            let [x, y, z] = g.at_m.map(|value| short(value, 3));
+            let (name, mean, now) = (escape(&g.name), kilopascals(g.highest_mean_pa), kilopascals(g.highest_pa));
+            format!("<tr><td>{name}</td><td>{x}, {y}, {z}</td><td>{mean}</td><td>{now}</td></tr>\n")
+        })
+        .collect();
+    format!(
+        "<p>The highest mean is over the time between two rows of <code>gauges.csv</code>, as a sensor of this bandwidth \
+         would show it; compare measurements with it. The highest single value is from the times of the rows \
+         only.</p>\n<div class=\"scroll\"><table>\n<thead><tr><th>Gauge</th><th>x, y, z [m]</th>\
+         <th>Highest mean [kPa]</th><th>Highest single value [kPa]</th></tr></thead>\n\
          <tbody>\n{rows}</tbody></table></div>\n"
     )
 }

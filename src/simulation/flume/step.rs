@@ -188,8 +188,11 @@ impl Simulation {
             grid: self.solver.grid(),
             bins: self.solver.water_bins(),
             water: &self.water,
+            boundary: &self.boundary,
+            boundary_bins: self.solver.boundary_bins(),
             kernel: parameters.kernel,
             tait: parameters.tait,
+            gravity: parameters.gravity,
         }
     }
 }
@@ -244,6 +247,7 @@ impl PreparedStep<'_> {
     /// if a unit has reached the end of the finest region, or if the device is lost.
     pub fn finish(self) -> Result<(), Failure> {
         let (simulation, dt) = (self.simulation, self.dt);
+        simulation.sum_gauge_pressures(dt);
         if simulation.coarse.is_empty() {
             return simulation.advance(dt);
         }

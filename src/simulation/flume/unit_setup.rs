@@ -47,7 +47,9 @@ pub(super) fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryPart
         }
         _ => particles_of(shape, dp),
     };
-    particles.iter_mut().for_each(|particle| particle.allows_free_slip = case.numerics.slip_on_units);
+    if case.numerics.slip_on_units {
+        particles.iter_mut().for_each(|particle| particle.allows_free_slip = true);
+    }
     particles
 }
 
@@ -87,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_have_free_slip_only_if_the_case_sets_slip_on_units() {
+    fn tetrapods_have_free_slip_only_if_the_case_sets_slip_on_units() {
         let given = include_str!("../../../cases/fudo/H4.5-slice.json");
         for slides in [false, true] {
             let wanted = format!(r#""wall_slip": "free_slip", "slip_on_units": {slides}"#);

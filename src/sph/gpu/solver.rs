@@ -39,6 +39,8 @@ pub struct GpuSolver {
     loaded: Option<Loaded>,
     /// Bins of the sorted water; only `start` is set, by the last fetch.
     bins: Bins,
+    /// Stands for the bins of the boundary, which stay on the card.
+    no_bins: Bins,
     /// Commands that are not submitted yet.
     encoder: Option<wgpu::CommandEncoder>,
     /// Error of an operation that has no return value; the next operation with a result returns this error.
@@ -82,7 +84,17 @@ impl GpuSolver {
             return Err(DeviceError::Scheme(what));
         }
         let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
-        Ok(Self { card, parameters, grid, bounds, loaded: None, bins: Bins::default(), encoder: None, failure: None })
+        Ok(Self {
+            card,
+            parameters,
+            grid,
+            bounds,
+            loaded: None,
+            bins: Bins::default(),
+            no_bins: Bins::default(),
+            encoder: None,
+            failure: None,
+        })
     }
 
     /// Submits all commands and waits until the card has finished, for time measurements.
@@ -156,6 +168,10 @@ impl Backend for GpuSolver {
 
     fn water_bins(&self) -> &Bins {
         &self.bins
+    }
+
+    fn boundary_bins(&self) -> [&Bins; 2] {
+        [&self.no_bins; 2]
     }
 
     fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory> {

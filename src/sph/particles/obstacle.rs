@@ -24,7 +24,7 @@ pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryP
                 let position = bounds.low + lattice * spacing;
                 if bounds.depth(position) < thickness {
                     let to_surface = bounds.vector_to_surface(position);
-                    particles.push(BoundaryParticle { position, to_surface, volume, allows_free_slip: false });
+                    particles.push(BoundaryParticle { position, to_surface, volume, allows_free_slip: true });
                 }
             }
         }

@@ -100,6 +100,10 @@ pub trait Backend: Send {
     /// Returns the bins of the sorted water. For a card, only `start` is set, and only by [`DeviceMemory::fetch`].
     fn water_bins(&self) -> &Bins;
 
+    /// Returns the bins of the boundary: first of bed, walls and pistons, then of the units, which count from the first
+    /// unit particle. For a card, the bins are empty.
+    fn boundary_bins(&self) -> [&Bins; 2];
+
     /// Returns the interface to the memory of the device; `None` if the device works on the arrays of the host.
     fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory>;
 
@@ -218,6 +222,10 @@ impl Backend for Solver {
 
     fn water_bins(&self) -> &Bins {
         Self::water_bins(self)
+    }
+
+    fn boundary_bins(&self) -> [&Bins; 2] {
+        Self::boundary_bins(self)
     }
 
     fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory> {

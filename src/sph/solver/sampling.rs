@@ -4,9 +4,9 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
 
-use crate::sph::boundary::linear_equations::solve;
+use crate::sph::boundary::{linear_equations::solve, mdbc::DRY_LIMIT};
 use crate::sph::neighbours::grid::{Bins, Grid};
-use crate::sph::particles::water::Water;
+use crate::sph::particles::{boundary::Boundary, water::Water};
 use crate::sph::terms::equation_of_state::Tait;
 use crate::sph::terms::kernel::Wendland;
 
@@ -21,6 +21,14 @@ const MIN_DETERMINANT: f64 = 0.01;
 /// dimensions; in two dimensions the exact value is 5/18.
 const SECOND_MOMENT: f64 = 4.0 / 15.0;
 
+/// A point counts as a point at a surface if the sum of W V of the boundary around it is larger than this value [-]. The
+/// sum is 1/2 on a plane wall, 0.2 half a smoothing length away from it, and 0.1 at 0.75 h.
+const AT_SURFACE: f64 = 0.1;
+
+/// Smallest share of the space around a point at a surface that counts as free of solids [-]; 1/8 is free in the corner
+/// of a bed and two walls.
+const LEAST_FREE: f64 = 0.1;
+
 /// Interpolator of pressure, velocity and surface level in the sorted water of a time step.
 #[derive(Clone, Copy)]
 pub struct Sampler<'a> {
@@ -30,10 +38,17 @@ pub struct Sampler<'a> {
     pub bins: &'a Bins,
     /// Water, in sorted order.
     pub water: &'a Water,
+    /// Boundary particles.
+    pub boundary: &'a Boundary,
+    /// Bins of the boundary: first of bed, walls and pistons, then of the units. They are empty if a graphics card
+    /// computes the water; all points then count as points inside the water.
+    pub boundary_bins: [&'a Bins; 2],
     /// Kernel.
     pub kernel: Wendland,
     /// Equation of state.
     pub tait: Tait,
+    /// Gravitational acceleration [m/s2].
+    pub gravity: f64,
 }
 
 /// State of the water at a point.
@@ -46,28 +61,42 @@ pub struct Sample {
 }
 
 impl Sampler<'_> {
-    /// Returns the vector from a point to each particle [m], and the index of the particle, for the particles in the bins
-    /// that the kernel support reaches along x and y, and in the rows `z` of bins.
-    fn near(&self, point: DVec3, z: RangeInclusive<usize>) -> impl Iterator<Item = (DVec3, usize)> {
+    /// Returns the index of each entry of `bins` in the bins that the kernel support around a point reaches along x and
+    /// y, and in the rows `z` of bins.
+    fn entries(&self, bins: &Bins, point: DVec3, z: RangeInclusive<usize>) -> impl Iterator<Item = usize> {
         let (grid, reach) = (self.grid, self.kernel.support());
         let [nx, ny, _] = grid.count;
         let x = grid.along(0, point.x - reach)..=grid.along(0, point.x + reach);
         let y = grid.rows_across(point.y - reach, point.y + reach);
         let rows = z.flat_map(move |iz| y.clone().map(move |iy| (iz * ny + iy % ny) * nx));
-        let members = rows.flat_map(move |row| self.bins.start[row + x.start()]..self.bins.start[row + x.end() + 1]);
-        let in_layer = self.kernel.dimensions() == 2;
-        members.map(move |b| {
-            let r = self.water.position[b as usize] - point;
-            (if in_layer { DVec3 { y: 0.0, ..r } } else { grid.nearest_image(r) }, b as usize)
-        })
+        rows.flat_map(move |row| bins.start[row + x.start()] as usize..bins.start[row + x.end() + 1] as usize)
+    }
+
+    /// Returns the range of the rows of bins along z that the kernel support around a point reaches.
+    fn rows_near(&self, point: DVec3) -> RangeInclusive<usize> {
+        let reach = self.kernel.support();
+        self.grid.along(2, point.z - reach)..=self.grid.along(2, point.z + reach)
+    }
+
+    /// Returns the vector from a point to a particle [m].
+    fn vector(&self, point: DVec3, particle: DVec3) -> DVec3 {
+        let r = particle - point;
+        if self.kernel.dimensions() == 2 { DVec3 { y: 0.0, ..r } } else { self.grid.nearest_image(r) }
+    }
+
+    /// Returns the vector from a point to each water particle [m], and the index of the particle, for the particles of
+    /// [`Self::entries`].
+    fn near(&self, point: DVec3, z: RangeInclusive<usize>) -> impl Iterator<Item = (DVec3, usize)> {
+        self.entries(self.bins, point, z).map(move |b| (self.vector(point, self.water.position[b]), b))
     }
 
     /// Calls `f` for each water particle within the kernel support of a point, with the vector from the point to the
     /// particle [m] and the index of the particle.
     fn for_each_near(&self, point: DVec3, mut f: impl FnMut(DVec3, usize)) {
         let reach = self.kernel.support();
-        let z = self.grid.along(2, point.z - reach)..=self.grid.along(2, point.z + reach);
-        self.near(point, z).filter(|(r, _)| r.length_squared() < reach * reach).for_each(|(r, b)| f(r, b));
+        self.near(point, self.rows_near(point))
+            .filter(|(r, _)| r.length_squared() < reach * reach)
+            .for_each(|(r, b)| f(r, b));
     }
 
     /// Returns the weight V W = (m / rho) W [-] of the particle `b`; `r` is the vector from the point to the particle
@@ -81,6 +110,52 @@ impl Sampler<'_> {
         let mut sum = 0.0;
         self.for_each_near(point, |r, b| sum += self.weight(r, b));
         sum
+    }
+
+    /// Returns the sum of W V of the boundary particles [-]: 1/2 on a plane wall, 0 far from the boundary.
+    fn occupied_by_boundary(&self, point: DVec3) -> f64 {
+        let first_unit = self.boundary.walls().end;
+        let mut sum = 0.0;
+        for (bins, first) in self.boundary_bins.into_iter().zip([0, first_unit]) {
+            if bins.order.is_empty() {
+                continue;
+            }
+            for entry in self.entries(bins, point, self.rows_near(point)) {
+                let b = first + bins.order[entry] as usize;
+                let closeness = self.kernel.closeness(self.vector(point, self.boundary.position[b]).length());
+                if closeness > 0.0 {
+                    sum += self.boundary.volume[b] * self.kernel.value(closeness);
+                }
+            }
+        }
+        sum
+    }
+
+    /// Returns the pressure that a sensor shows at a point [Pa]. Returns `None` if the point is dry.
+    ///
+    /// On a surface, it is the mean over the space that solids leave free, with the kernel as weight, where air has no
+    /// pressure:
+    ///
+    ///   p = sum_b W V_b (p_b + rho0 g (z_b - z)) / (1 - sum_s W V_s)
+    ///
+    /// with water particles b and boundary particles s. It is exact in still water. On a plane wall, it is twice the
+    /// first part of the force per area of equation 1, which has p_b, also if the water is thin or does not yet touch
+    /// the wall. A linear fit would not agree with the force there. Away from surfaces, it is the pressure of
+    /// [`Self::sample`].
+    pub fn sensor_pressure(&self, point: DVec3) -> Option<f64> {
+        let solid = self.occupied_by_boundary(point);
+        if solid < AT_SURFACE {
+            return self.sample(point).map(|sample| sample.pressure);
+        }
+        let weight_of_water = self.tait.rho0 * self.gravity;
+        let (mut wet, mut sum) = (0.0, 0.0);
+        self.for_each_near(point, |r, b| {
+            let weight = self.weight(r, b);
+            wet += weight;
+            sum += weight * (self.tait.pressure(self.water.density[b]) + weight_of_water * r.z);
+        });
+        // One particle at the distance dp contributes more than the limit.
+        (wet > DRY_LIMIT).then(|| sum / (1.0 - solid).max(LEAST_FREE))
     }
 
     /// Returns pressure and velocity at a point, as [`Self::fit`]. Returns `None` if the point is dry.

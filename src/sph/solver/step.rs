@@ -384,6 +384,11 @@ impl Solver {
     pub fn water_bins(&self) -> &Bins {
         &self.water.bins
     }
+
+    /// Returns the bins of the boundary: first of bed, walls and pistons, then of the units.
+    pub fn boundary_bins(&self) -> [&Bins; 2] {
+        [&self.walls.bins, &self.units.bins]
+    }
 }
 
 /// Returns the acceleration without gravity [m/s2].

@@ -3,6 +3,7 @@
 pub mod balance;
 pub mod energy;
 pub mod extremes;
+pub mod gauge_pressures;
 pub mod mean_loads;
 pub mod rest;
 pub mod statistics;

@@ -218,7 +218,12 @@ impl Recorder {
 
     fn record_series(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
         let (time, dt) = (now.flume_time(), now.dt());
-        self.gauges.append(&gauge_row(now))?;
+        let (pressures, mut mean_pressures) = (now.gauge_pressures(), now.statistics.gauge_pressures.take());
+        if mean_pressures.is_empty() && !now.is_on_gpu() {
+            // No time step was made since the last row.
+            mean_pressures.clone_from(&pressures);
+        }
+        self.gauges.append(&gauge_row(now, [&pressures, &mean_pressures]))?;
         let powers = now.powers()?;
         self.energy.append(&energy_row(now, powers))?;
         self.diagnostics.append(&now.diagnostics_row(dt, powers.divergence))?;
@@ -276,18 +281,19 @@ fn wet_gauges(case: &Case) -> impl Iterator<Item = &Gauge> {
 fn gauge_columns(case: &Case) -> Vec<String> {
     let names = wet_gauges(case).flat_map(|gauge| match gauge.quantity {
         Quantity::Elevation => vec![columns::elevation(&gauge.name)],
-        Quantity::Pressure => vec![columns::pressure(&gauge.name)],
+        Quantity::Pressure => columns::pressure(&gauge.name).to_vec(),
         Quantity::Velocity => columns::velocity(&gauge.name).to_vec(),
     });
     ["time_s".to_owned()].into_iter().chain(names).collect()
 }
 
 /// Returns a row of `gauges.csv`; NaN for gauges without water, and for gauges behind the wavemaker or less than the
-/// smoothing length in front of it.
-fn gauge_row(simulation: &Simulation) -> Vec<f64> {
+/// smoothing length in front of it. `pressures` lists the pressures of the pressure gauges [Pa], first at this time,
+/// then averaged since the last row; the second list is empty if the device does not compute means.
+fn gauge_row(simulation: &Simulation, pressures: [&[Option<f64>]; 2]) -> Vec<f64> {
     let case = &simulation.case;
-    let [from, to] = simulation.between_moving_ends();
-    let is_between = |x: f64| (from + case.numerics.h..to - case.numerics.h).contains(&x);
+    let is_between = |x: f64| simulation.is_between_moving_ends(x);
+    let mut pressure_gauge = 0;
     let mut row = vec![simulation.flume_time()];
     for gauge in wet_gauges(case) {
         let at = simulation.gauge_position(gauge);
@@ -299,7 +305,11 @@ fn gauge_row(simulation: &Simulation) -> Vec<f64> {
                 let level = sampler.surface(at.truncate(), bed).filter(|_| is_between(at.x));
                 row.push(level.map_or(f64::NAN, |z| z - case.flume.still_water_level));
             }
-            Quantity::Pressure => row.push(sample().map_or(f64::NAN, |s| s.pressure)),
+            Quantity::Pressure => {
+                let value = |list: &[Option<f64>]| list.get(pressure_gauge).copied().flatten().unwrap_or(f64::NAN);
+                row.extend(pressures.map(value));
+                pressure_gauge += 1;
+            }
             Quantity::Velocity => row.extend(sample().map_or([f64::NAN; 3], |s| s.velocity.to_array())),
         }
     }

@@ -6,18 +6,19 @@ use crate::simulation::flume::Simulation;
 use crate::{
     case::{Case, Quantity, Sides, Wave, Wavemaker},
     output::{
-        ContactSummary, EnergySummary, Execution, GaugeSummary, OutputError, ParticleCounts, Stopped, Summary, Table,
-        TimeStepSummary, UnitSummary, WaveSummary, columns,
+        ContactSummary, EnergySummary, Execution, GaugeSummary, OutputError, ParticleCounts, PressureSummary, Stopped,
+        Summary, Table, TimeStepSummary, UnitSummary, WaveSummary, columns,
     },
     waves::theory::solitary::PistonTheory,
 };
 
-/// Summarises a run; reads the highest elevation at each gauge from the gauge tables in the run folder `dir`.
+/// Summarises a run; reads the highest elevation and pressure at each gauge from the gauge tables in the run folder `dir`.
 ///
 /// # Errors
 /// If the gauge tables cannot be read.
 pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Result<Summary, OutputError> {
     let (case, statistics) = (&simulation.case, &simulation.statistics);
+    let (gauges, pressure_gauges) = gauges(simulation, dir)?;
     let counts = particle_counts(simulation);
     let steps_run = statistics.steps.max(1) as f64;
     let mut summary = Summary {
@@ -25,7 +26,8 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
         breakwater_version: env!("CARGO_PKG_VERSION").to_owned(),
         case_hash: case.hash.clone(),
         wave: wave(case),
-        gauges: gauges(simulation, dir)?,
+        gauges,
+        pressure_gauges,
         contacts: ContactSummary {
             with_bed: statistics.contacts.iter().map(|c| c[0]).sum(),
             between_units: statistics.contacts.iter().map(|c| c[1]).sum(),
@@ -116,20 +118,25 @@ fn units_of(simulation: &Simulation, damage_distance: f64) -> Vec<UnitSummary> {
     units.states().iter().zip(&units.start).enumerate().map(summary_of).collect()
 }
 
-/// Returns the highest elevation at each elevation gauge, read from the gauge tables.
-fn gauges(simulation: &Simulation, dir: &Path) -> Result<Vec<GaugeSummary>, OutputError> {
+/// Returns the highest elevation at each elevation gauge and the highest pressures at each pressure gauge, read from the
+/// gauge tables.
+fn gauges(simulation: &Simulation, dir: &Path) -> Result<(Vec<GaugeSummary>, Vec<PressureSummary>), OutputError> {
     let particles = Table::read_if_present(&dir.join("gauges.csv"))?;
     let flume = Table::read_if_present(&dir.join("flume_gauges.csv"))?;
-    let crest = |table: &Option<Table>, name: &str| {
-        let series = table.as_ref()?.get(&columns::elevation(name))?;
-        series.iter().copied().filter(|eta| eta.is_finite()).reduce(f64::max)
+    let highest = |table: &Option<Table>, column: &str| {
+        let series = table.as_ref()?.get(column)?;
+        series.iter().copied().filter(|value| value.is_finite()).reduce(f64::max)
     };
-    let elevation = simulation.case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
-    let summaries = elevation.map(|gauge| GaugeSummary {
+    let of = |quantity: Quantity| simulation.case.gauges.iter().filter(move |gauge| gauge.quantity == quantity);
+    let elevations = of(Quantity::Elevation).map(|gauge| GaugeSummary {
         name: gauge.name.clone(),
         x_m: gauge.at[0],
-        crest_sph_m: crest(&particles, &gauge.name),
-        crest_flume_m: crest(&flume, &gauge.name),
+        crest_sph_m: highest(&particles, &columns::elevation(&gauge.name)),
+        crest_flume_m: highest(&flume, &columns::elevation(&gauge.name)),
     });
-    Ok(summaries.collect())
+    let pressures = of(Quantity::Pressure).filter(|gauge| gauge.in_domain).map(|gauge| {
+        let [highest_pa, highest_mean_pa] = columns::pressure(&gauge.name).map(|column| highest(&particles, &column));
+        PressureSummary { name: gauge.name.clone(), at_m: gauge.at, highest_mean_pa, highest_pa }
+    });
+    Ok((elevations.collect(), pressures.collect()))
 }

@@ -1,0 +1,146 @@
+//! Pressure and force on a box that the wave of a dam break hits: SPHERIC benchmark 2, measured by MARIN (Kleefsman et
+//! al. 2005, J. Comput. Phys. 206, 363-393).
+//!
+//! The full test compares the pressure on the front of the box with the measurement. The short test is the same dam
+//! break in two dimensions. It checks that the gauges agree with the force on the box.
+
+use std::{path::Path, sync::Arc};
+
+use breakwater::{case::Case, simulation::flume::Simulation};
+use serde_json::{Value, json};
+
+/// Averaging time of the pressures [s].
+const INTERVAL: f64 = 5e-3;
+
+/// Highest 5 ms means of the measured pressures P1 to P4 [Pa], and measured means from 50 to 150 ms after the impact on
+/// P1, computed from the series of the benchmark.
+const MEASURED: [[f64; 2]; 4] = [[10_619.0, 6_927.0], [7_877.0, 6_358.0], [6_501.0, 5_618.0], [7_135.0, 5_377.0]];
+
+/// Steady flow on the box: from 50 to 150 ms after the impact [s].
+const STEADY: [f64; 2] = [0.05, 0.15];
+
+/// Pressure on the front of the box, every 5 ms.
+struct Impact {
+    /// End of each interval [s].
+    times: Vec<f64>,
+    /// Mean pressure at each gauge in each interval [Pa].
+    pressures: Vec<Vec<f64>>,
+    /// Mean force on the box towards smaller x, divided by the area of its front [Pa]; zero without units.
+    forces: Vec<f64>,
+}
+
+impl Impact {
+    /// Runs the case until `end` [s].
+    fn of(case: &Value, end: f64) -> Self {
+        let case = Case::from_str(&case.to_string(), "test").unwrap_or_else(|errors| panic!("{errors}"));
+        let mut dam = Simulation::new(Arc::new(case)).unwrap();
+        let mut impact = Self { times: Vec::new(), pressures: Vec::new(), forces: Vec::new() };
+        while dam.time < end {
+            dam.step().unwrap();
+            if dam.time < INTERVAL * (impact.times.len() + 1) as f64 {
+                continue;
+            }
+            impact.times.push(dam.time);
+            let pressures = dam.statistics.gauge_pressures.take();
+            impact.pressures.push(pressures.into_iter().map(|pressure| pressure.unwrap_or(0.0)).collect());
+            let loads = dam.units.as_mut().and_then(|units| units.mean_loads.take());
+            impact.forces.push(loads.map_or(0.0, |loads| -loads[0][0].force.x / (WIDTH * HEIGHT)));
+        }
+        impact
+    }
+
+    /// Returns the first time at which the lowest gauge shows more than 300 Pa [s].
+    fn hit(&self) -> f64 {
+        let first = self.pressures.iter().position(|pressures| pressures[0] > 300.0).expect("the wave hits the box");
+        self.times[first]
+    }
+
+    fn peak(&self, gauge: usize) -> f64 {
+        self.pressures.iter().map(|pressures| pressures[gauge]).fold(0.0, f64::max)
+    }
+
+    /// Returns the mean of `value` over the steady flow.
+    fn steady(&self, value: impl Fn(usize) -> f64) -> f64 {
+        let hit = self.hit();
+        let steady = hit + STEADY[0]..hit + STEADY[1];
+        let values: Vec<f64> = (0..self.times.len()).filter(|&i| steady.contains(&self.times[i])).map(value).collect();
+        values.iter().sum::<f64>() / values.len() as f64
+    }
+}
+
+/// Width and height of the front of the box [m].
+const WIDTH: f64 = 0.403;
+const HEIGHT: f64 = 0.161;
+/// x of the front of the box [m].
+const FRONT: f64 = 0.8245;
+/// Number of gauges on the front in the two-dimensional case.
+const GAUGES: u32 = 16;
+
+/// Returns the dam break in two dimensions, with the box as a unit that is held.
+fn in_two_dimensions() -> Value {
+    let height_of = |k: u32| (f64::from(k) + 0.5) * HEIGHT / f64::from(GAUGES);
+    let gauges: Vec<Value> = (0..GAUGES)
+        .map(|k| json!({ "kind": "pressure", "name": format!("P{k}"), "at_m": [FRONT, 0.0, height_of(k)] }))
+        .collect();
+    json!({
+        "title": "Dam break on a box in two dimensions",
+        "flume": { "bed_m": [[0.0, 0.0], [3.22, 0.0]], "still_water_level_m": 0.0, "material": "concrete" },
+        "domain": {
+            "x_m": [0.0, 3.22], "sides": "two_dimensional", "top_z_m": 1.5, "dp_m": 0.02,
+            "water": { "kind": "block", "x_m": [1.992, 3.22], "top_z_m": 0.55 }
+        },
+        "units": {
+            "shape": "cuboid", "size_m": [HEIGHT, WIDTH, HEIGHT], "mass_kg": 30.0, "material": "concrete",
+            "centres_m": [[FRONT - 0.5 * HEIGHT, 0.0, 0.5 * HEIGHT]]
+        },
+        "materials": [{ "name": "concrete", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
+        "friction": [{ "between": ["concrete", "concrete"], "coefficient": 0.5 }],
+        "gauges": gauges,
+        "numerics": { "hold_units_s": 1.0 },
+        "stop": { "duration_s": 1.0 }
+    })
+}
+
+#[test]
+fn gauges_agree_with_the_force_on_a_box() {
+    let impact = Impact::of(&in_two_dimensions(), 0.6);
+    let mean = |i: usize| impact.pressures[i].iter().sum::<f64>() / f64::from(GAUGES);
+    let (gauges, force) = (impact.steady(mean), impact.steady(|i| impact.forces[i]));
+    let peak = impact.peak(2);
+    println!(
+        "mean of the gauges {:.2} kPa, force over area {:.2} kPa, highest 5 ms mean at z = 25 mm {:.1} kPa",
+        1e-3 * gauges,
+        1e-3 * force,
+        1e-3 * peak
+    );
+    // Limit 15 %: the gauges show only the water's part of the pressure force, and neither the viscous force nor the
+    // impulses of water that comes too near. With a linear fit at the gauges, the difference was 55 %.
+    assert!((gauges / force - 1.0).abs() < 0.15);
+    // Limit 15 kPa: with sticking walls, the peak was 23 kPa; with 5 mm particles and free slip, it is 13 kPa.
+    assert!(peak < 15e3);
+}
+
+/// Run with `cargo test --release --test validation -- --ignored --nocapture box_impact`; takes 5 minutes.
+#[test]
+#[ignore = "takes 5 minutes"]
+fn pressures_on_a_box_compared_with_the_measurement() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/verification/dam-break-on-box.json");
+    let case: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+    let impact = Impact::of(&case, 0.6);
+    println!("impact at {:.3} s", impact.hit());
+    for (gauge, [peak, steady]) in MEASURED.into_iter().enumerate() {
+        let (peak_here, steady_here) = (impact.peak(gauge), impact.steady(|i| impact.pressures[i][gauge]));
+        println!(
+            "P{}: highest 5 ms mean {:.2} kPa (measured {:.2}), mean of the steady flow {:.2} kPa ({:.2})",
+            gauge + 1,
+            1e-3 * peak_here,
+            1e-3 * peak,
+            1e-3 * steady_here,
+            1e-3 * steady
+        );
+        // Limit 30 % for the lower half of the box: the scatter of impacts in repeated experiments is of this order. In
+        // the upper half, the computed pressure is too low at any resolution; docs/validation/fluid.md gives the
+        // figures.
+        assert!(gauge > 1 || (peak_here / peak - 1.0).abs() < 0.3);
+    }
+}
