@@ -120,9 +120,9 @@ fn gauges_agree_with_the_force_on_a_box() {
     assert!(peak < 15e3);
 }
 
-/// Run with `cargo test --release --test validation -- --ignored --nocapture box_impact`; takes 5 minutes.
+/// Run with `cargo test --release --test validation -- --ignored --nocapture box_impact`; takes 8 minutes.
 #[test]
-#[ignore = "takes 5 minutes"]
+#[ignore = "takes 8 minutes"]
 fn pressures_on_a_box_compared_with_the_measurement() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/verification/dam-break-on-box.json");
     let case: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
