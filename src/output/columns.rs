@@ -158,8 +158,8 @@ pub fn elevation(name: &str) -> String {
     format!("{name}_eta_m")
 }
 
-/// Returns the column names of the pressure [Pa] at the gauge `name`: at the time of the row, and as a mean over the time
-/// since the last row.
+/// Returns the column names of the pressure [Pa] at the gauge `name`: at the time of the row, and as a mean over the
+/// time since the last row.
 pub fn pressure(name: &str) -> [String; 2] {
     ["p", "p_mean"].map(|kind| format!("{name}_{kind}_pa"))
 }

@@ -57,8 +57,8 @@ pub struct Numerics {
 /// Default speed of sound / sqrt(g d) [-] for waves in still water of the depth d.
 const SOUND_FACTOR_OF_WAVES: f64 = 15.0;
 
-/// Default speed of sound / sqrt(g d) [-] for a block of water of the height d that collapses on a dry bed: ten times the
-/// largest speed of its front, 2 sqrt(g d) (Ritter 1892).
+/// Default speed of sound / sqrt(g d) [-] for a block of water of the height d that collapses on a dry bed: ten times
+/// the largest speed of its front, 2 sqrt(g d) (Ritter 1892).
 const SOUND_FACTOR_OF_BLOCKS: f64 = 20.0;
 
 /// Validates the constants of the water. The speed of sound follows from the largest initial depth in the `domain`.

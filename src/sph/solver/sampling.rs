@@ -138,9 +138,9 @@ impl Sampler<'_> {
     ///
     ///   p = sum_b W V_b (p_b + rho0 g (z_b - z)) / (1 - sum_s W V_s)
     ///
-    /// with water particles b and boundary particles s. It is exact in still water below the reach of the free surface. On a plane wall, it is twice the
-    /// first part of the force per area of equation 1, which has p_b, also if the water is thin or does not yet touch
-    /// the wall. A linear fit would not agree with the force there. Away from surfaces, it is the pressure of
+    /// with water particles b and boundary particles s. It is exact in still water below the reach of the
+    /// free surface. On a plane wall, it is twice the first part of the force per area of equation 1, which has p_b,
+    /// also if the water is thin or does not yet touch the wall. A linear fit would not agree with the force there. Away from surfaces, it is the pressure of
     /// [`Self::sample`].
     pub fn sensor_pressure(&self, point: DVec3) -> Option<f64> {
         let solid = self.occupied_by_boundary(point);
