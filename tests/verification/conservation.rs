@@ -159,8 +159,10 @@ fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
 #[test]
 fn only_pair_forces_along_r_keep_angular_momentum() {
     let dp = RADIUS / 10.0;
-    // The forces are ten times larger than in the drop that is not squeezed. Reached: changes of up to 9e-10.
-    let rounding = 1e-9;
+    // The forces are ten times larger than in the drop that is not squeezed. Reached: changes of up to 1e-9. They are
+    // sums of random rounding errors, which differ between instruction sets, so the limit is three times as large. The
+    // terms that do not keep angular momentum change it by more than 30 times this limit.
+    let rounding = 3e-9;
     let run = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
         println!("{name}:");
         drift(dp, 100, 0.002, |parameters| adjust(parameters))
