@@ -158,6 +158,11 @@ pub fn elevation(name: &str) -> String {
     format!("{name}_eta_m")
 }
 
+/// Returns the column name of the length that is under water of a vertical wire at the gauge `name` [m] (`gauges.csv`).
+pub fn wetted_length(name: &str) -> String {
+    format!("{name}_wetted_m")
+}
+
 /// Returns the column names of the pressure [Pa] at the gauge `name`: at the time of the row, and as a mean over the
 /// time since the last row.
 pub fn pressure(name: &str) -> [String; 2] {

@@ -72,8 +72,7 @@ fn surfaces_bytes(case: &Case, snapshots: f64) -> f64 {
 
 fn table_bytes(case: &Case, rows: f64) -> f64 {
     let gauge_columns = |quantity: Quantity| match quantity {
-        Quantity::Elevation => 1.0,
-        Quantity::Pressure => 2.0,
+        Quantity::Elevation | Quantity::Pressure => 2.0,
         Quantity::Velocity => 3.0,
     };
     let gauges = case.gauges.iter().filter(|gauge| gauge.in_domain).map(|gauge| gauge_columns(gauge.quantity));

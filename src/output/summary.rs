@@ -184,7 +184,8 @@ pub struct PressureSummary {
     /// Highest mean over `output.series_interval_s` [Pa]; `None` if the gauge was always dry, or if a graphics card
     /// computed the water.
     pub highest_mean_pa: Option<f64>,
-    /// Highest of the pressures at the times of the rows of `gauges.csv` [Pa]; `None` if the gauge was dry at these times.
+    /// Highest of the pressures at the times of the rows of `gauges.csv` [Pa]; `None` if the gauge was dry at these
+    /// times.
     pub highest_pa: Option<f64>,
 }
 

@@ -25,8 +25,10 @@ fn tank() -> Value {
                    "centres_m": [[0.8, 0.0, 0.05]] },
         "materials": [{ "name": "stone", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
         "friction": [{ "between": ["stone", "stone"], "coefficient": 0.5 }],
-        "gauges": [{ "kind": "elevation", "name": "wall", "x_m": 0.95 }],
-        "output": { "units_interval_s": 0.02, "series_interval_s": 0.005, "checkpoint_interval_s": 0.04 },
+        // Checkpoints are between rows, so that a mean over the time since the last row continues too.
+        "gauges": [{ "kind": "elevation", "name": "wall", "x_m": 0.95 },
+                   { "kind": "pressure", "name": "bed", "at_m": [0.1, 0.0, 0.0] }],
+        "output": { "units_interval_s": 0.02, "series_interval_s": 0.005, "checkpoint_interval_s": 0.042 },
         "stop": { "duration_s": 0.2 }
     })
 }

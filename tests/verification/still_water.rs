@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use breakwater::simulation::flume::{Simulation, step::PreparedStep};
+use breakwater::{
+    simulation::flume::{Simulation, step::PreparedStep},
+    sph::solver::sampling::Sampler,
+};
 use glam::DVec3;
 use serde_json::{Value, json};
 
@@ -27,8 +30,12 @@ impl KineticEnergy {
     }
 }
 
+/// Reads the pressure at a point [Pa].
+type Reading = fn(&Sampler, DVec3) -> Option<f64>;
+
 /// Mean pressure error at points [m] over the second half of a run, as a share of the pressure on the bed [-].
 struct PressureError {
+    read: Reading,
     points: Vec<DVec3>,
     level: f64,
     depth: f64,
@@ -37,8 +44,8 @@ struct PressureError {
 }
 
 impl PressureError {
-    fn new(points: Vec<DVec3>, level: f64, depth: f64) -> Self {
-        Self { sums: vec![0.0; points.len()], points, level, depth, count: 0.0 }
+    fn new(read: Reading, points: Vec<DVec3>, level: f64, depth: f64) -> Self {
+        Self { read, sums: vec![0.0; points.len()], points, level, depth, count: 0.0 }
     }
 
     fn record(&mut self, now: &mut PreparedStep, end: f64) {
@@ -48,7 +55,7 @@ impl PressureError {
         let sampler = now.sampler().unwrap();
         for (point, sum) in self.points.iter().zip(&mut self.sums) {
             let hydrostatic = RHO0 * GRAVITY * (self.level - point.z);
-            *sum += (sampler.sample(*point).unwrap().pressure - hydrostatic) / (RHO0 * GRAVITY * self.depth);
+            *sum += ((self.read)(&sampler, *point).unwrap() - hydrostatic) / (RHO0 * GRAVITY * self.depth);
         }
         self.count += 1.0;
     }
@@ -62,6 +69,10 @@ impl PressureError {
     }
 }
 
+fn in_the_water(sampler: &Sampler, at: DVec3) -> Option<f64> {
+    sampler.sample(at).map(|sample| sample.pressure)
+}
+
 #[test]
 fn a_flat_tank_stays_hydrostatic() {
     let (length, depth, dp, end) = (0.24, 0.3, 0.02, 1.8);
@@ -69,10 +80,15 @@ fn a_flat_tank_stays_hydrostatic() {
     let mass: f64 = tank.water.mass.iter().sum();
     let point = |x: f64, z: f64| DVec3::new(x, 0.1, z);
     let points = [0.04, 0.12, 0.2].iter().flat_map(|&x| [point(x, 0.0), point(x, 0.1), point(x, 0.2)]).collect();
-    let mut pressure = PressureError::new(points, depth, depth);
+    let mut pressure = PressureError::new(in_the_water, points, depth, depth);
+    let sensors = |points| PressureError::new(|sampler, at| sampler.sensor_pressure(at), points, depth, depth);
+    let mut on_planes = sensors(vec![point(0.12, 0.0), point(0.0, 0.1), point(length, 0.2)]);
+    let mut in_corner = sensors(vec![point(0.0, 0.0)]);
     let mut kinetic_energy = KineticEnergy::default();
     run_until(&mut tank, end, |now| {
         pressure.record(now, end);
+        on_planes.record(now, end);
+        in_corner.record(now, end);
         kinetic_energy.record(now, end);
     });
     let fastest = tank.water.velocity.iter().map(|v| v.length()).fold(0.0, f64::max);
@@ -88,6 +104,10 @@ fn a_flat_tank_stays_hydrostatic() {
     // adds 0.2 %, from g d / (2 c0^2) with c0 = 15 sqrt(g d). Most of the remaining error is due to the truncated
     // kernel at the surface.
     assert!(largest < 0.01);
+    println!("sensors on bed and walls, and in the corner of bed and wall:");
+    // Limits 1 % as above, and 3 % in the corner, where water fills only a quarter of the space around the sensor, so
+    // that few particles make the mean. Measured 0.7 and 2.2 %.
+    assert!(on_planes.largest() < 0.01 && in_corner.largest() < 0.03);
     // The start is in equilibrium except for the truncated kernel at the surface; the resulting motion decays.
     assert!(kinetic_energy.late < 0.5 * kinetic_energy.early);
     assert!((tank.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);
@@ -160,7 +180,7 @@ fn assert_nothing_moves_over_the_mound(x: [f64; 2], end: f64) {
     let on_bed = |x: f64| DVec3::new(x, 0.5 * case.domain.width, case.flume.profile.z(x));
     // Points seaward and shoreward of the mound, on its flanks, and on its crest away from the units.
     let places = [38.5, 38.6, 38.8, 38.88, 39.12, 39.2, 39.45, 39.55];
-    let mut pressure = PressureError::new(places.map(on_bed).to_vec(), level, deepest);
+    let mut pressure = PressureError::new(in_the_water, places.map(on_bed).to_vec(), level, deepest);
     let mut kinetic_energy = KineticEnergy::default();
     let mass: f64 = flume.water.mass.iter().sum();
     run_until(&mut flume, end, |now| {

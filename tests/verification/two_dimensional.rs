@@ -54,10 +54,12 @@ fn gauges_read_level_and_pressure_of_a_layer() {
         let level = sampler.surface(DVec2::new(0.5, 3.0), 0.0).unwrap();
         let at = DVec3::new(0.5, -1.0, 0.1);
         let by_force = sampler.hydrostatic_depth(0.5, 6.0 * dp, width, |_| 0.0);
-        read = vec![level, sampler.sample(at).unwrap().pressure, sampler.occupied(at), by_force];
+        let wetted = sampler.wetted_length(DVec2::new(0.5, 3.0), 0.0);
+        read = vec![level, sampler.sample(at).unwrap().pressure, sampler.occupied(at), by_force, wetted];
     });
-    // Limits: 0.1 dp for the level; 2 % of the pressure, which still oscillates after 1 s; 2 % of the sum of W V.
-    assert!((read[0] - depth).abs() < 0.1 * dp, "{read:?}");
+    // Limits: 0.1 dp for the level and the wetted length; 2 % of the pressure, which still oscillates after 1 s; 2 % of
+    // the sum of W V.
+    assert!((read[0] - depth).abs() < 0.1 * dp && (read[4] - depth).abs() < 0.1 * dp, "{read:?}");
     assert!((read[1] / (RHO0 * GRAVITY * (depth - 0.1)) - 1.0).abs() < 0.02, "{read:?}");
     assert!((read[2] - 1.0).abs() < 0.02, "{read:?}");
     // Limit 0.02 dp: the weights of particles in rows add up to 1 with an error of 4e-4 of the depth, 0.008 dp.
@@ -84,4 +86,22 @@ fn still_water_stays_still_on_a_beach() {
     // Limit for the speed: 0.25 m/s, a quarter of sqrt(g d) for five particles in the depth. Walls that attract the
     // water would cause 1.6 m/s.
     assert!(fastest < 0.25);
+}
+
+#[test]
+fn the_wetted_length_does_not_count_air() {
+    let (depth, dp, air) = (0.4, 0.02, 0.16);
+    let mut tank = simulation(&in_two_dimensions(still_tank(1.0, 0.2, depth, dp, 1.0)));
+    for position in &mut tank.water.position {
+        position.z += if position.z > 0.3 { air } else { 0.0 };
+    }
+    let mut read = [0.0; 2];
+    // A single time step, in which nothing moves far.
+    run_until(&mut tank, 1e-9, |now| {
+        let (sampler, at) = (now.sampler().unwrap(), DVec2::new(0.5, 0.0));
+        read = [sampler.surface(at, 0.0).unwrap(), sampler.wetted_length(at, 0.0)];
+    });
+    println!("level {:.4} m, wetted length {:.4} m", read[0], read[1]);
+    // Limits 0.2 dp: one free surface for the level, three for the length, each with the error of the tests above.
+    assert!((read[0] - depth - air).abs() < 0.2 * dp && (read[1] - depth).abs() < 0.3 * dp, "{read:?}");
 }

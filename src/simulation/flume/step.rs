@@ -224,8 +224,8 @@ impl PreparedStep<'_> {
         Ok(self.simulation.sampler())
     }
 
-    /// Returns the current powers that the water of all regions receives from boundaries, viscosity and density diffusion
-    /// [W].
+    /// Returns the current powers that the water of all regions receives from boundaries, viscosity and density
+    /// diffusion [W].
     ///
     /// # Errors
     /// If the device is lost.

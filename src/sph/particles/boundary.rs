@@ -17,9 +17,9 @@ pub struct Boundary {
     pub to_surface: Vec<DVec3>,
     /// Volume [m3].
     pub volume: Vec<f64>,
-    /// True if free slip is allowed at the particle: on beds flatter than 1:4, on walls within 14 degrees of the vertical,
-    /// on obstacles and on cuboids. False on slopes between these limits, at convex edges of the bed and, by default, on
-    /// other units.
+    /// True if free slip is allowed at the particle: on beds flatter than 1:4, on walls within 14 degrees of the
+    /// vertical, on obstacles and on cuboids. False on slopes between these limits, at convex edges of the bed and, by
+    /// default, on other units.
     pub allows_free_slip: Vec<bool>,
     /// Density [kg/m3].
     pub density: Vec<f64>,

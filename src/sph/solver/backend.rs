@@ -143,8 +143,8 @@ pub trait Backend: Send {
     /// overwrites the rates. In the rates from a card, the approach speed is zero.
     fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError>;
 
-    /// Returns the last computed rates of the water in the memory of the host, in sorted order; empty if a card computes
-    /// them.
+    /// Returns the last computed rates of the water in the memory of the host, in sorted order; empty if a card
+    /// computes them.
     fn host_rates(&self) -> &[Rate];
 
     /// Like [`Self::host_rates`]; the rates can be replaced before they are used.

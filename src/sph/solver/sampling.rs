@@ -21,8 +21,8 @@ const MIN_DETERMINANT: f64 = 0.01;
 /// dimensions; in two dimensions the exact value is 5/18.
 const SECOND_MOMENT: f64 = 4.0 / 15.0;
 
-/// A point counts as a point at a surface if the sum of W V of the boundary around it is larger than this value [-]. The
-/// sum is 1/2 on a plane wall, 0.2 half a smoothing length away from it, and 0.1 at 0.75 h.
+/// A point counts as a point at a surface if the sum of W V of the boundary around it is larger than this value [-].
+/// The sum is 1/2 on a plane wall, 0.2 half a smoothing length away from it, and 0.1 at 0.75 h.
 const AT_SURFACE: f64 = 0.1;
 
 /// Smallest share of the space around a point at a surface that counts as free of solids [-]; 1/8 is free in the corner
@@ -138,10 +138,10 @@ impl Sampler<'_> {
     ///
     ///   p = sum_b W V_b (p_b + rho0 g (z_b - z)) / (1 - sum_s W V_s)
     ///
-    /// with water particles b and boundary particles s. It is exact in still water below the reach of the
-    /// free surface. On a plane wall, it is twice the first part of the force per area of equation 1, which has p_b,
-    /// also if the water is thin or does not yet touch the wall. A linear fit would not agree with the force there. Away from surfaces, it is the pressure of
-    /// [`Self::sample`].
+    /// with water particles b and boundary particles s. It is exact in still water below the reach of the free surface.
+    /// On a plane wall, it is twice the first part of the force per area of equation 1, which has p_b, also if the
+    /// water is thin or does not yet touch the wall. A linear fit would not agree with the force there. Away from
+    /// surfaces, it is the pressure of [`Self::sample`].
     pub fn sensor_pressure(&self, point: DVec3) -> Option<f64> {
         let solid = self.occupied_by_boundary(point);
         if solid < AT_SURFACE {
@@ -211,25 +211,44 @@ impl Sampler<'_> {
 
     /// Returns the level z of the free surface at (x, y) [m]: the highest level above `low` [m] at which the sum of W V
     /// falls to 1/2. Returns `None` if there is no such level.
-    ///
-    /// The search starts h above the highest particle, where the sum is below 1/2, also if water stands above the walls.
     pub fn surface(&self, xy: DVec2, low: f64) -> Option<f64> {
-        let (step, reach) = (0.25 * self.kernel.h, self.kernel.support());
-        let column = self.near(xy.extend(0.0), 0..=self.grid.count[2] - 1);
-        let within = column.filter(|(r, _)| r.truncate().length_squared() < reach * reach);
-        let highest = within.map(|(r, _)| r.z).fold(f64::NEG_INFINITY, f64::max);
-        let occupied_at = |z: f64| self.occupied(xy.extend(z));
-        // The cast gives 0 if there is no particle.
-        let count = ((highest + self.kernel.h - low) / step).ceil() as u32;
+        let (count, step) = self.column_steps(xy, low);
         let mut above = 0.0;
         for z in (0..count).rev().map(|k| low + f64::from(k) * step) {
-            let occupied = occupied_at(z);
+            let occupied = self.occupied(xy.extend(z));
             if occupied >= SURFACE {
                 return Some(z + step * (occupied - SURFACE) / (occupied - above));
             }
             above = occupied;
         }
         None
+    }
+
+    /// Returns the length that is under water of a vertical wire at (x, y) above the level `low` [m]: the length on
+    /// which the sum of W V is at least 1/2. Air below a breaking wave or below splash does not count.
+    pub fn wetted_length(&self, xy: DVec2, low: f64) -> f64 {
+        let (count, step) = self.column_steps(xy, low);
+        // The points are in the middle of the steps: on the bed itself, the sum is 1/2 because water is only above it.
+        let excess_at = |k: u32| self.occupied(xy.extend(low + (f64::from(k) + 0.5) * step)) - SURFACE;
+        let mut below = excess_at(0);
+        let mut length = if below >= 0.0 { 0.5 * step } else { 0.0 };
+        for above in (1..=count).map(excess_at) {
+            let [dry, wet] = [below.min(above), below.max(above)];
+            length += step * (wet.max(0.0) / (wet - dry.min(0.0)).max(f64::MIN_POSITIVE));
+            below = above;
+        }
+        length
+    }
+
+    /// Returns the number and the size [m] of the steps along z from the level `low` [m] up to h above the highest
+    /// particle near (x, y). There the sum of W V is below 1/2, also if water stands above the walls.
+    fn column_steps(&self, xy: DVec2, low: f64) -> (u32, f64) {
+        let (step, reach) = (0.25 * self.kernel.h, self.kernel.support());
+        let column = self.near(xy.extend(0.0), 0..=self.grid.count[2] - 1);
+        let within = column.filter(|(r, _)| r.truncate().length_squared() < reach * reach);
+        let highest = within.map(|(r, _)| r.z).fold(f64::NEG_INFINITY, f64::max);
+        // The cast gives 0 if there is no particle.
+        (((highest + self.kernel.h - low) / step).ceil() as u32, step)
     }
 
     /// Returns the depth of the water at x [m]: its volume per unit area of a flume of width `width` [m], with the
@@ -243,9 +262,9 @@ impl Sampler<'_> {
     /// mean over the water within `reach` [m] along x.
     ///
     /// The force is rho g S per unit width if each particle carries the weight of the particles above it. Water flows
-    /// until this force is equal everywhere on a horizontal bed, also if the particles are less regular in one place than
-    /// in another. Their volume per unit area, and the level at which the sum of W V is 1/2, then differ by up to a tenth
-    /// of the particle spacing.
+    /// until this force is equal everywhere on a horizontal bed, also if the particles are less regular in one place
+    /// than in another. Their volume per unit area, and the level at which the sum of W V is 1/2, then differ by up to
+    /// a tenth of the particle spacing.
     pub fn hydrostatic_depth(&self, x: f64, reach: f64, width: f64, bed: impl Fn(f64) -> f64) -> f64 {
         (2.0 * self.column_mean(x, reach, width, |at| at.z - bed(at.x)).max(0.0)).sqrt()
     }

@@ -1,8 +1,8 @@
 //! Pressure at the gauges: at the current time, and averaged over the time between two rows of `gauges.csv`.
 //!
-//! The largest pressure of an impact lasts for less than the time between two rows, so the pressures at the times of the
-//! rows could miss it. A pressure sensor, too, shows a mean over a short time. The mean pressure times the time between
-//! two rows is the exact impulse per area.
+//! The largest pressure of an impact lasts for less than the time between two rows, so the pressures at the times of
+//! the rows could miss it. A pressure sensor, too, shows a mean over a short time. The mean pressure times the time
+//! between two rows is the exact impulse per area.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -31,8 +31,8 @@ impl GaugePressures {
         self.over += dt;
     }
 
-    /// Returns the mean pressure at each pressure gauge since the last call [Pa], with zero for the time while the gauge
-    /// was dry; `None` for a gauge that was dry all the time. Returns an empty list if no time step was added.
+    /// Returns the mean pressure at each pressure gauge since the last call [Pa], with zero for the time while the
+    /// gauge was dry; `None` for a gauge that was dry all the time. Returns an empty list if no time step was added.
     pub fn take(&mut self) -> Vec<Option<f64>> {
         let Self { impulses, over } = std::mem::take(self);
         impulses.into_iter().map(|sum| sum.map(|impulse| impulse / over)).collect()

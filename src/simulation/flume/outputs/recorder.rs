@@ -280,16 +280,17 @@ fn wet_gauges(case: &Case) -> impl Iterator<Item = &Gauge> {
 
 fn gauge_columns(case: &Case) -> Vec<String> {
     let names = wet_gauges(case).flat_map(|gauge| match gauge.quantity {
-        Quantity::Elevation => vec![columns::elevation(&gauge.name)],
+        Quantity::Elevation => vec![columns::elevation(&gauge.name), columns::wetted_length(&gauge.name)],
         Quantity::Pressure => columns::pressure(&gauge.name).to_vec(),
         Quantity::Velocity => columns::velocity(&gauge.name).to_vec(),
     });
     ["time_s".to_owned()].into_iter().chain(names).collect()
 }
 
-/// Returns a row of `gauges.csv`; NaN for gauges without water, and for gauges behind the wavemaker or less than the
-/// smoothing length in front of it. `pressures` lists the pressures of the pressure gauges [Pa], first at this time,
-/// then averaged since the last row; the second list is empty if the device does not compute means.
+/// Returns a row of `gauges.csv`. Gauges without water have NaN, but a wetted length of zero. Gauges behind the
+/// wavemaker or less than the smoothing length in front of it have NaN. `pressures` lists the pressures of the pressure
+/// gauges [Pa], first at this time, then averaged since the last row; the second list is empty if the device does not
+/// compute means.
 fn gauge_row(simulation: &Simulation, pressures: [&[Option<f64>]; 2]) -> Vec<f64> {
     let case = &simulation.case;
     let is_between = |x: f64| simulation.is_between_moving_ends(x);
@@ -304,6 +305,8 @@ fn gauge_row(simulation: &Simulation, pressures: [&[Option<f64>]; 2]) -> Vec<f64
                 let bed = case.flume.profile.z(at.x);
                 let level = sampler.surface(at.truncate(), bed).filter(|_| is_between(at.x));
                 row.push(level.map_or(f64::NAN, |z| z - case.flume.still_water_level));
+                let wetted = is_between(at.x).then(|| sampler.wetted_length(at.truncate(), bed));
+                row.push(wetted.unwrap_or(f64::NAN));
             }
             Quantity::Pressure => {
                 let value = |list: &[Option<f64>]| list.get(pressure_gauge).copied().flatten().unwrap_or(f64::NAN);

@@ -12,7 +12,8 @@ use crate::{
     waves::theory::solitary::PistonTheory,
 };
 
-/// Summarises a run; reads the highest elevation and pressure at each gauge from the gauge tables in the run folder `dir`.
+/// Summarises a run; reads the highest elevation and pressure at each gauge from the gauge tables in the run folder
+/// `dir`.
 ///
 /// # Errors
 /// If the gauge tables cannot be read.
@@ -118,8 +119,8 @@ fn units_of(simulation: &Simulation, damage_distance: f64) -> Vec<UnitSummary> {
     units.states().iter().zip(&units.start).enumerate().map(summary_of).collect()
 }
 
-/// Returns the highest elevation at each elevation gauge and the highest pressures at each pressure gauge, read from the
-/// gauge tables.
+/// Returns the highest elevation at each elevation gauge and the highest pressures at each pressure gauge, read from
+/// the gauge tables.
 fn gauges(simulation: &Simulation, dir: &Path) -> Result<(Vec<GaugeSummary>, Vec<PressureSummary>), OutputError> {
     let particles = Table::read_if_present(&dir.join("gauges.csv"))?;
     let flume = Table::read_if_present(&dir.join("flume_gauges.csv"))?;
