@@ -158,7 +158,7 @@ pub fn elevation(name: &str) -> String {
     format!("{name}_eta_m")
 }
 
-/// Returns the column name of the length that is under water of a vertical wire at the gauge `name` [m] (`gauges.csv`).
+/// Returns the column name of the length of a vertical wire at the gauge `name` that is under water [m] (`gauges.csv`).
 pub fn wetted_length(name: &str) -> String {
     format!("{name}_wetted_m")
 }

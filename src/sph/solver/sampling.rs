@@ -224,8 +224,8 @@ impl Sampler<'_> {
         None
     }
 
-    /// Returns the length that is under water of a vertical wire at (x, y) above the level `low` [m]: the length on
-    /// which the sum of W V is at least 1/2. Air below a breaking wave or below splash does not count.
+    /// Returns the length of a vertical wire at (x, y) above the level `low` that is under water [m]: the length on which
+    /// the sum of W V is at least 1/2. Air below a breaking wave or below splash does not count.
     pub fn wetted_length(&self, xy: DVec2, low: f64) -> f64 {
         let (count, step) = self.column_steps(xy, low);
         // The points are in the middle of the steps: on the bed itself, the sum is 1/2 because water is only above it.
