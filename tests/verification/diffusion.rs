@@ -3,7 +3,10 @@
 use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::{
     parameters::BoundaryCondition,
-    terms::density_diffusion::{DensityDiffusion, Diffusion},
+    terms::{
+        density_diffusion::{DensityDiffusion, Diffusion},
+        wall_slip::Mirroring,
+    },
 };
 use glam::DVec3;
 
@@ -21,7 +24,7 @@ fn density_rates(boundary: BoundaryCondition, diffusion: DensityDiffusion) -> Ve
             position: DVec3::new(DP * (f64::from(i % 20) - 9.5), DP * (f64::from(i / 20) - 9.5), WALL),
             to_surface: DVec3::new(0.0, 0.0, 0.5 * DP),
             volume: DP.powi(3),
-            allows_free_slip: false,
+            mirroring: Mirroring::Normal,
         })
         .collect();
     let mut parameters = ideal(DP, None);

@@ -7,7 +7,10 @@ use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::simulation::flume::unit_setup::particles_of;
 use breakwater::sph::{
     parameters::BoundaryCondition::{self, Dynamic, ModifiedDynamic},
-    terms::{viscosity::Viscosity, wall_slip::WallSlip},
+    terms::{
+        viscosity::Viscosity,
+        wall_slip::{Mirroring, WallSlip},
+    },
 };
 use glam::{DQuat, DVec3};
 
@@ -208,7 +211,7 @@ fn free_slip_on_the_unit_lowers_the_drag() {
         let [no_slip, free_slip] = [false, true].map(|free_slip| {
             let mut stream = Stream::new(8.5, ModifiedDynamic, 0.0125, position);
             if free_slip {
-                stream.tank.boundary.allows_free_slip.fill(true);
+                stream.tank.boundary.mirroring.fill(Mirroring::Full);
             }
             force_over_pressure(stream, &format!("8.5 particles in the height, {position:?}, free slip: {free_slip}"))
         });

@@ -32,6 +32,7 @@ use crate::{
             water::Water,
         },
         solver::backend::DeviceError,
+        terms::wall_slip::Mirroring,
     },
     waves::{flume_model::FlumeError, flume_model::record::FlumeRecord, generation::wavemaker::Wavemaker},
 };
@@ -310,7 +311,7 @@ fn end_particles(case: &Case, across: &Across, end: &MovingEnd) -> Vec<(u32, Bou
                         position: DVec3::new(end.wavemaker.rest_x_m() - inside, y, z),
                         to_surface: DVec3::new(inside, across.to_inside(y), 0.0),
                         volume: dp * dp * across.spacing(),
-                        allows_free_slip: true,
+                        mirroring: Mirroring::Full,
                     },
                 ));
             }

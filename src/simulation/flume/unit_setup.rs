@@ -11,12 +11,15 @@ use crate::{
     case::{self, Case},
     geometry::armour_unit::ArmourUnit,
     rigid::{Load, RigidError, RigidWorld},
-    sph::particles::{
-        boundary::BoundaryParticle,
-        fill::clear_solid,
-        obstacle::box_particles,
-        unit::{MIN_DEPTH, unit_particles},
-        water::Water,
+    sph::{
+        particles::{
+            boundary::BoundaryParticle,
+            fill::clear_solid,
+            obstacle::box_particles,
+            unit::{MIN_DEPTH, unit_particles},
+            water::Water,
+        },
+        terms::wall_slip::Mirroring,
     },
 };
 
@@ -48,7 +51,7 @@ pub(super) fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryPart
         _ => particles_of(shape, dp),
     };
     if case.numerics.slip_on_units {
-        particles.iter_mut().for_each(|particle| particle.allows_free_slip = true);
+        particles.iter_mut().for_each(|particle| particle.mirroring = Mirroring::Full);
     }
     particles
 }
@@ -97,7 +100,8 @@ mod tests {
             let case = Case::from_str(&text, "cases/fudo/test.json").unwrap_or_else(|errors| panic!("{errors}"));
             let units = case.units.as_ref().expect("the slice has two units");
             let particles = unit_in_place(units.shape.unit(), &case);
-            assert!(!particles.is_empty() && particles.iter().all(|particle| particle.allows_free_slip == slides));
+            let wanted = if slides { Mirroring::Full } else { Mirroring::Normal };
+            assert!(!particles.is_empty() && particles.iter().all(|particle| particle.mirroring == wanted));
         }
     }
 }

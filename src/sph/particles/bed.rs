@@ -10,6 +10,7 @@
 use glam::{DVec2, DVec3};
 
 use super::boundary::BoundaryParticle;
+use crate::sph::terms::wall_slip::Mirroring;
 
 /// Tolerance for rounding errors of the distance from the outline, divided by the depth behind the outline [-]. Pieces
 /// that are shorter than this value times dp are left out.
@@ -223,13 +224,14 @@ pub fn outline_particles(
         let to_outline = nearest - point;
         let upright = to_outline.normalize_or_zero().y.abs();
         let on_flank = (FLANK_ANGLE.sin()..FLANK_ANGLE.cos()).contains(&upright);
-        let allows_free_slip = !on_flank && !outline.is_at_edge(nearest, reach);
+        let mirroring =
+            if on_flank || outline.is_at_edge(nearest, reach) { Mirroring::Normal } else { Mirroring::Full };
         for y in across.rows(layers) {
             particles.push(BoundaryParticle {
                 position: DVec3::new(point.x, y, point.y),
                 to_surface: DVec3::new(to_outline.x, across.to_inside(y), to_outline.y),
                 volume: length * dp * across.spacing(),
-                allows_free_slip,
+                mirroring,
             });
         }
     }
@@ -251,7 +253,7 @@ pub fn side_wall_particles(section: &[(DVec2, f64)], across: &Across, layers: u3
                     position: DVec3::new(point.x, y, point.y),
                     to_surface: DVec3::Y * to_wall,
                     volume: area * across.spacing(),
-                    allows_free_slip: true,
+                    mirroring: Mirroring::Full,
                 });
             }
         }
@@ -310,14 +312,14 @@ mod tests {
             let from_edge = foot.distance(DVec3::new(1.0, foot.y, 0.5));
             // Behind a concave corner, `to_surface` can have any direction, so free slip is not checked there.
             let behind_corner = particle.to_surface.x.abs().min(particle.to_surface.z.abs()) > 1e-9;
-            assert!(behind_corner || particle.allows_free_slip == (from_edge >= reach), "{foot}");
+            assert!(behind_corner || (particle.mirroring == Mirroring::Full) == (from_edge >= reach), "{foot}");
         }
         let flank = Outline::new([[0.0, 0.0], [1.0, 0.5], [9.0, 1.5]].map(DVec2::from_array).to_vec());
         for particle in outline_particles(&flank, &across, 0.02, 3, reach) {
             // There is no free slip on the 1:2 slope (x < 1) and free slip on the 1:8 slope (x > 1). Particles near
             // x = 1 are not checked, because the layers of both slopes meet there.
             let x = particle.position.x + particle.to_surface.x;
-            assert!((x - 1.0).abs() < 0.1 || particle.allows_free_slip == (x > 1.0), "{x}");
+            assert!((x - 1.0).abs() < 0.1 || (particle.mirroring == Mirroring::Full) == (x > 1.0), "{x}");
         }
     }
 

@@ -4,7 +4,10 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::mechanics::{BodyState, Load};
+use crate::{
+    mechanics::{BodyState, Load},
+    sph::terms::wall_slip::Mirroring,
+};
 
 /// All boundary particles in a fixed order: bed and walls, then the pistons, then one unit after the other.
 #[derive(Debug, Clone, Default)]
@@ -17,10 +20,8 @@ pub struct Boundary {
     pub to_surface: Vec<DVec3>,
     /// Volume [m3].
     pub volume: Vec<f64>,
-    /// True if free slip is allowed at the particle: on beds flatter than 1:4, on walls within 14 degrees of the
-    /// vertical, on obstacles and on cuboids. False on slopes between these limits, at convex edges of the bed and, by
-    /// default, on other units.
-    pub allows_free_slip: Vec<bool>,
+    /// Components of the water velocity that the particle mirrors under no slip and free slip.
+    pub mirroring: Vec<Mirroring>,
     /// Density [kg/m3].
     pub density: Vec<f64>,
     pistons: Vec<Piston>,
@@ -55,8 +56,8 @@ pub struct BoundaryParticle {
     pub to_surface: DVec3,
     /// Volume [m3].
     pub volume: f64,
-    /// True if free slip is allowed at the particle; see [`Boundary::allows_free_slip`].
-    pub allows_free_slip: bool,
+    /// See [`Boundary::mirroring`].
+    pub mirroring: Mirroring,
 }
 
 impl Boundary {
@@ -95,7 +96,7 @@ impl Boundary {
         self.velocity.push(DVec3::ZERO);
         self.to_surface.push(particle.to_surface);
         self.volume.push(particle.volume);
-        self.allows_free_slip.push(particle.allows_free_slip);
+        self.mirroring.push(particle.mirroring);
         self.density.push(rho0);
     }
 
@@ -182,8 +183,12 @@ mod tests {
 
     #[test]
     fn unit_particles_move_as_a_rigid_body() {
-        let particle =
-            BoundaryParticle { position: DVec3::X, to_surface: DVec3::X * 0.1, volume: 1.0, allows_free_slip: false };
+        let particle = BoundaryParticle {
+            position: DVec3::X,
+            to_surface: DVec3::X * 0.1,
+            volume: 1.0,
+            mirroring: Mirroring::Normal,
+        };
         let mut boundary = Boundary::new(&[], &[], &[particle], 2, 1000.0);
         let quarter = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
         boundary.move_unit(

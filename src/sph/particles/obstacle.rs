@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 use super::boundary::BoundaryParticle;
-use crate::geometry::axis_box::AxisBox;
+use crate::{geometry::axis_box::AxisBox, sph::terms::wall_slip::Mirroring};
 
 /// Returns the boundary particles of a box. They are about `dp` [m] apart and less than `thickness` [m] behind an open
 /// face, which is a face that water can reach.
@@ -24,7 +24,7 @@ pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryP
                 let position = bounds.low + lattice * spacing;
                 if bounds.depth(position) < thickness {
                     let to_surface = bounds.vector_to_surface(position);
-                    particles.push(BoundaryParticle { position, to_surface, volume, allows_free_slip: true });
+                    particles.push(BoundaryParticle { position, to_surface, volume, mirroring: Mirroring::None });
                 }
             }
         }
@@ -77,7 +77,7 @@ mod tests {
             position: DVec3::new(x, 0.1, -0.01),
             to_surface: DVec3::Z * 0.01,
             volume: 8e-6,
-            allows_free_slip: false,
+            mirroring: Mirroring::Full,
         };
         let mut bed = [below(-0.01), below(0.03)];
         cover(&mut bed, &obstacle);

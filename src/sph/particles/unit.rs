@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::boundary::BoundaryParticle;
+use crate::sph::terms::wall_slip::Mirroring;
 
 /// Smallest depth of a boundary particle below the surface of the unit, as a share of dp. Shallower particles are moved
 /// inwards to this depth, so that no water particle touches them.
@@ -41,7 +42,12 @@ pub fn unit_particles(
         } else {
             point
         };
-        BoundaryParticle { position, to_surface: locate(position).0 - position, volume: share, allows_free_slip: false }
+        BoundaryParticle {
+            position,
+            to_surface: locate(position).0 - position,
+            volume: share,
+            mirroring: Mirroring::Normal,
+        }
     };
     points.into_iter().map(to_particle).collect()
 }

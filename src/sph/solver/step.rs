@@ -165,8 +165,8 @@ impl Solver {
                 let i = offset + i as usize;
                 let mass = parameters.tait.rho0 * boundary.volume[i];
                 let ghost = ghost_velocities.at_node_of(i, ghosts);
-                let (wall, free_slip) = (boundary.velocity[i], boundary.allows_free_slip[i]);
-                let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], free_slip);
+                let (wall, mirroring) = (boundary.velocity[i], boundary.mirroring[i]);
+                let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], mirroring);
                 *out = record(grid, parameters, boundary.position[i], velocity, density[i], mass, diffuses);
                 out.add_damping(ghost.map_or(0.0, |ghost| ghost.damping));
             });

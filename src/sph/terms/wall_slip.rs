@@ -24,29 +24,41 @@ pub enum WallSlip {
     FreeSlip,
 }
 
+/// Components of the water velocity at its ghost node that a boundary particle mirrors.
+///
+/// Mirrored velocities of an isolated body, or along a flank, make still water circulate and shrink; docs/methods.md
+/// gives the reason.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mirroring {
+    /// All components: beds flatter than 1:4, and walls within 14 degrees of the vertical.
+    Full,
+    /// Under free slip only the normal component; the tangential velocity is the velocity of the wall. For steeper beds,
+    /// the kernel support of convex edges of the bed and, by default, units that are not cuboids.
+    Normal,
+    /// None; the velocity is the velocity of the wall. For obstacles and cuboids.
+    None,
+}
+
 impl WallSlip {
     /// Returns the velocity of a boundary particle [m/s]. `wall` is the velocity of the wall [m/s], `ghost` the
     /// velocity of the water at the ghost node (`None` if dry), and `to_surface` the vector from the particle to the
-    /// surface [m]. For a dry node, the function returns the velocity of the wall. If `free_slip` is false (see
-    /// [`Boundary::allows_free_slip`]), `FreeSlip` uses the tangential velocity of the wall.
+    /// surface [m]. For a dry node, the function returns the velocity of the wall.
     ///
     /// Density and normal velocity come from the same interpolation, also in thin sheets of water. Then the work of the
     /// mirrored density on the water and the compression by the mirrored velocity nearly balance, and a fixed wall
     /// hardly changes the energy of the water.
-    ///
-    /// [`Boundary::allows_free_slip`]: crate::sph::particles::boundary::Boundary::allows_free_slip
-    pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3, free_slip: bool) -> DVec3 {
+    pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3, mirroring: Mirroring) -> DVec3 {
         let Some(GhostVelocity { velocity, .. }) = ghost else { return wall };
         let relative = velocity - wall;
-        match self {
-            Self::Original => wall,
-            Self::NoSlip => wall - relative,
-            Self::FreeSlip => {
-                let normal = to_surface.normalize_or_zero();
-                let across = relative.dot(normal) * normal;
-                let along = if free_slip { relative - across } else { DVec3::ZERO };
-                wall + along - across
-            }
+        let across = || {
+            let normal = to_surface.normalize_or_zero();
+            relative.dot(normal) * normal
+        };
+        match (self, mirroring) {
+            (Self::Original, _) | (_, Mirroring::None) => wall,
+            (Self::NoSlip, _) => wall - relative,
+            (Self::FreeSlip, Mirroring::Full) => wall + relative - 2.0 * across(),
+            (Self::FreeSlip, Mirroring::Normal) => wall - across(),
         }
     }
 }
@@ -59,12 +71,12 @@ mod tests {
     fn mean_of_ghost_and_boundary_velocity_satisfies_the_slip_condition() {
         let (wall, ghost, up) = (DVec3::new(0.1, 0.0, 0.2), DVec3::new(1.0, 2.0, -3.0), DVec3::Z * 0.05);
         let at_node = Some(GhostVelocity { velocity: ghost, damping: 0.0 });
-        let mean = |slip: WallSlip| 0.5 * (slip.velocity(wall, at_node, up, true) + ghost);
+        let mean = |slip: WallSlip| 0.5 * (slip.velocity(wall, at_node, up, Mirroring::Full) + ghost);
         assert!((mean(WallSlip::NoSlip) - wall).length() < 1e-15);
         assert!((mean(WallSlip::FreeSlip) - DVec3::new(1.0, 2.0, 0.2)).length() < 1e-15);
-        assert_eq!(WallSlip::NoSlip.velocity(wall, None, up, true), wall);
-        // At an edge, the tangential velocity is the velocity of the wall, and the normal velocity is still mirrored.
-        let at_edge = WallSlip::FreeSlip.velocity(wall, at_node, up, false);
-        assert!((at_edge - DVec3::new(0.1, 0.0, 3.4)).length() < 1e-15);
+        assert_eq!(WallSlip::NoSlip.velocity(wall, None, up, Mirroring::Full), wall);
+        let normal_only = WallSlip::FreeSlip.velocity(wall, at_node, up, Mirroring::Normal);
+        assert!((normal_only - DVec3::new(0.1, 0.0, 3.4)).length() < 1e-15);
+        assert_eq!(WallSlip::FreeSlip.velocity(wall, at_node, up, Mirroring::None), wall);
     }
 }
