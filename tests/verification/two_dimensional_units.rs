@@ -128,7 +128,7 @@ fn water_under_a_held_box_comes_to_rest_and_keeps_its_volume() {
         1e3 * end,
         1e3 * speed
     );
-    // With mirrored velocities, the speed was 47 mm/s and the level fell by 20 mm. Limits: the particles settle by a
+    // With mirrored velocities, the speed was 42 mm/s and the level fell by 19 mm. Limits: the particles settle by a
     // part of dp, and this motion decays slowly.
     assert!(speed < 0.015 && (end - start).abs() < 0.2 * COARSE);
 }

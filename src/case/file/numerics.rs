@@ -40,8 +40,8 @@ pub struct NumericsFile {
     pub wall_slip: Option<WallSlip>,
     // This key and the next key are left out of the serialized case at their defaults, so that older cases keep their
     // hash.
-    /// true: free slip at all units. false: free slip at cuboids only; boundary particles of other units have the
-    /// tangential velocity of the unit. Only used if `wall_slip` is `free_slip`.
+    /// true: free slip at the units, too. false: boundary particles of a unit have the tangential velocity of the unit.
+    /// Only used if `wall_slip` is `free_slip`.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub slip_on_units: bool,
     /// true: water pressure also acts on a unit in gaps that are too narrow for water particles. false: only water
