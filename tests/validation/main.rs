@@ -5,6 +5,7 @@
 //! comparisons with full series were left out.
 
 mod box_impact;
+mod box_records;
 mod dam_break;
 mod dam_break_3d;
 mod data;
