@@ -208,7 +208,8 @@ fn a_fit_finds_amplitude_phase_and_drift() {
 
 /// Asserts that heave and roll amplitudes agree with the measurement, and that the drift ratio is in the range `drift`,
 /// which depends on the resolution. Each range is 0.15 to either side of the computed ratio, because a fit over half of
-/// the periods changes the drift by a quarter.
+/// the periods changes the drift by a quarter. The limit for the roll is wide, because the roll is uncertain: in potential
+/// flow, it doubles if the centre of mass is 5 mm lower.
 fn assert_as_measured(results: Vec<[f64; 5]>, roll: f64, drift: [f64; 2]) {
     for [heave, _, roll_ratio, _, drift_ratio] in results {
         assert!((heave - 1.0).abs() < 0.1 && (roll_ratio - 1.0).abs() < roll, "heave {heave}, roll {roll_ratio}");
@@ -227,14 +228,14 @@ fn floating_box_moves_as_measured_in_a_slice() {
 #[ignore = "1 minute on one core: \
     cargo test --release --test validation -- --ignored --nocapture floating_box_moves_as_measured_in_a_layer"]
 fn floating_box_moves_as_measured_in_a_layer() {
-    assert_as_measured(compare(0.025, Part::Layer), 0.2, [0.3, 0.6]);
+    assert_as_measured(compare(0.025, Part::Layer), 0.3, [0.4, 0.7]);
 }
 
 #[test]
 #[ignore = "8 minutes on one core: \
     cargo test --release --test validation -- --ignored --nocapture floating_box_moves_as_measured_in_a_fine_layer"]
 fn floating_box_moves_as_measured_in_a_fine_layer() {
-    assert_as_measured(compare(0.0125, Part::Layer), 0.2, [0.5, 0.8]);
+    assert_as_measured(compare(0.0125, Part::Layer), 0.2, [0.65, 0.95]);
 }
 
 #[test]
