@@ -120,8 +120,8 @@ fn with_mdbc() -> [(&'static str, Value); 2] {
 fn assert_equals_dualsphysics(end: f64) {
     let deviations = compare("unchanged", &[], end);
     // Limits: for the tip one particle spacing, the resolution of the lattice; for the energy 2 %. Reached for the
-    // energy: 1.1 %. If density diffusion also acts on wall particles, the energy deviates by
-    // 3 % at 0.12 s and 12 % at 0.6 s. With a building one particle narrower, the energy deviates by 7 %.
+    // energy: 1.1 %. If density diffusion also acts on wall particles, the energy deviates by 3 % at 0.12 s and 12 % at
+    // 0.6 s. With a building one particle narrower, the energy deviates by 7 %.
     assert!(deviations.tip < DP && deviations.kinetic < 0.02);
 }
 
