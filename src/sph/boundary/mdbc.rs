@@ -28,6 +28,7 @@ use crate::sph::neighbours::lists::{NeighbourLists, Sources};
 use crate::sph::neighbours::records::{Record, split_position};
 use crate::sph::parameters::Parameters;
 use crate::sph::particles::boundary::Boundary;
+use crate::sph::terms::wall_slip::{Mirroring, WallSlip};
 
 /// Smallest determinant of the matrix of the four equations, divided by (sum of W V)^4, for which the gradient is
 /// fitted [-]. The value is 1 for a full neighbourhood, 0.3 for a node at a plane water surface, 0.1 for a node at a
@@ -49,6 +50,11 @@ pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 /// beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
 pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 
+/// Height of the node above the centroid of the water around it, along the surface [h]. From the first to the second
+/// value, the share of the boundary particle that acts on the water decreases from 1 to 0. The height is 0.42 h for a
+/// node at the waterline of deep water on a vertical wall, and the share changes over about one particle spacing.
+const WATERLINE_LIMITS: [f64; 2] = [0.3, 0.55];
+
 /// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
 pub(super) const MIN_CHUNK: usize = 1024;
 
@@ -67,8 +73,9 @@ pub struct GhostNodes {
     pub(super) sums: Vec<NodeSums>,
     /// Place of each boundary particle in the order of the nodes.
     pub(super) place_of: Vec<u32>,
-    /// Densities of the boundary particles in the order of the nodes [kg/m3].
-    densities: Vec<f64>,
+    /// Density [kg/m3] of each boundary particle and the share of it that acts on the water [-], in the order of the
+    /// nodes.
+    states: Vec<[f64; 2]>,
 }
 
 /// Sums over the water particles around one ghost node. (x, y, z) is the vector from the node to a particle in units of
@@ -97,11 +104,11 @@ impl GhostNodes {
     pub fn bytes(&self) -> usize {
         let points = (self.points.capacity() + self.sorted.capacity()) * size_of::<DVec3>();
         let sums = self.split.capacity() * size_of::<[f32; 4]>() + self.sums.capacity() * size_of::<NodeSums>();
-        let places = self.place_of.capacity() * size_of::<u32>() + self.densities.capacity() * size_of::<f64>();
+        let places = self.place_of.capacity() * size_of::<u32>() + self.states.capacity() * size_of::<[f64; 2]>();
         points + sums + places + self.bins.bytes() + self.lists.bytes()
     }
 
-    /// Computes the density of each boundary particle from the water around its ghost node.
+    /// Computes the density and the acting volume of each boundary particle from the water around its ghost node.
     pub fn densities(
         &mut self,
         grid: &Grid,
@@ -132,20 +139,29 @@ impl GhostNodes {
         let bin_x = grid.size.x as f32;
         let nothing = vec![[0.0; 0]; count];
         sum_around_nodes(parameters, bin_x, &self.split, &nothing, &self.lists, records, &mut self.sums);
-        self.densities.resize(count, 0.0);
-        (&mut self.densities, &self.sums, &self.bins.order)
-            .into_par_iter()
-            .with_min_len(MIN_CHUNK)
-            .for_each(|(density, sums, &i)| *density = sums.density_at(parameters, boundary.to_surface[i as usize]));
+        self.states.resize(count, [0.0; 2]);
+        let fades = parameters.slip != WallSlip::Original;
+        let Boundary { to_surface, mirroring, density, volume, acting_volume, .. } = boundary;
+        (&mut self.states, &self.sums, &self.bins.order).into_par_iter().with_min_len(MIN_CHUNK).for_each(
+            |(state, sums, &i)| {
+                let i = i as usize;
+                let fades = fades && mirroring[i] == Mirroring::None;
+                let share = if fades { sums.share_below_waterline(to_surface[i]) } else { 1.0 };
+                *state = [sums.density_at(parameters, to_surface[i]), share];
+            },
+        );
         self.place_of.resize(count, 0);
         for (place, &i) in self.bins.order.iter().enumerate() {
             self.place_of[i as usize] = place as u32;
         }
-        let densities = &self.densities;
-        (&mut boundary.density, &self.place_of)
-            .into_par_iter()
-            .with_min_len(MIN_CHUNK)
-            .for_each(|(density, &place)| *density = densities[place as usize]);
+        let states = &self.states;
+        (density, acting_volume, volume, &self.place_of).into_par_iter().with_min_len(MIN_CHUNK).for_each(
+            |(density, acting_volume, volume, &place)| {
+                let [at_particle, share] = states[place as usize];
+                *density = at_particle;
+                *acting_volume = share * *volume;
+            },
+        );
     }
 }
 
@@ -224,6 +240,22 @@ impl NodeSums {
         rho0 + excess.max(0.0)
     }
 
+    /// Returns the share of the boundary particle that acts on the water [-]; `to_surface` [m] is half the vector from
+    /// the particle to this node.
+    ///
+    /// The pair forces between a vertical wall and the water have no vertical sum only if boundary particles above the
+    /// waterline exert no force, because there is no water above it that would balance them. With their force, a
+    /// floating box rests too high.
+    fn share_below_waterline(&self, to_surface: DVec3) -> f64 {
+        let [occupied, x, y, z] = self.value.map(f64::from);
+        if occupied < DRY_LIMIT {
+            return 1.0;
+        }
+        let (centroid, normal) = (DVec3::new(x, y, z) / occupied, to_surface.normalize_or_zero());
+        let height = normal.z * centroid.dot(normal) - centroid.z;
+        ((WATERLINE_LIMITS[1] - height) / (WATERLINE_LIMITS[1] - WATERLINE_LIMITS[0])).clamp(0.0, 1.0)
+    }
+
     /// Returns the trust in the fitted gradient, from 0 (only the fallback) to 1 (only the four equations);
     /// `to_surface` [m] is half the vector from the boundary particle to this node.
     pub(super) fn trust(&self, to_surface: DVec3) -> f64 {
@@ -297,6 +329,16 @@ mod tests {
         // The spreads occur with two layers of particles, three layers and deep water.
         for (spread, trust) in [(0.3, 0.0), (0.55, 0.5), (0.74, 1.0)] {
             assert!((layer(0.3, spread, 0.0).trust(bed) - trust).abs() < 1e-6, "{spread}");
+        }
+    }
+
+    #[test]
+    fn boundary_particles_above_the_waterline_of_a_vertical_wall_do_not_act() {
+        for (height, share) in [(0.0, 1.0), (0.3, 1.0), (0.425, 0.5), (0.55, 0.0), (0.8, 0.0), (-0.8, 1.0)] {
+            let water = layer(-height, 0.74, 0.0);
+            assert!((water.share_below_waterline(DVec3::X) - share).abs() < 1e-6, "{height}");
+            // Above a bed, the height of the water along the surface is zero.
+            assert_eq!(water.share_below_waterline(DVec3::Z), 1.0);
         }
     }
 
