@@ -50,11 +50,6 @@ pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 /// beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
 pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 
-/// Height of the node above the centroid of the water around it, along the surface [h]. From the first to the second
-/// value, the share of the boundary particle that acts on the water decreases from 1 to 0. The height is 0.42 h for a
-/// node at the waterline of deep water on a vertical wall, and the share changes over about one particle spacing.
-const WATERLINE_LIMITS: [f64; 2] = [0.3, 0.55];
-
 /// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
 pub(super) const MIN_CHUNK: usize = 1024;
 
@@ -140,14 +135,14 @@ impl GhostNodes {
         let nothing = vec![[0.0; 0]; count];
         sum_around_nodes(parameters, bin_x, &self.split, &nothing, &self.lists, records, &mut self.sums);
         self.states.resize(count, [0.0; 2]);
-        let fades = parameters.slip != WallSlip::Original;
+        let waterline = parameters.slip != WallSlip::Original;
+        let first_unit = boundary.walls().end;
         let Boundary { to_surface, mirroring, density, volume, acting_volume, .. } = boundary;
         (&mut self.states, &self.sums, &self.bins.order).into_par_iter().with_min_len(MIN_CHUNK).for_each(
             |(state, sums, &i)| {
                 let i = i as usize;
-                let fades = fades && mirroring[i] == Mirroring::None;
-                let share = if fades { sums.share_below_waterline(to_surface[i]) } else { 1.0 };
-                *state = [sums.density_at(parameters, to_surface[i]), share];
+                let of_body = i >= first_unit || mirroring[i] == Mirroring::None;
+                *state = sums.state_at(parameters, to_surface[i], waterline && of_body);
             },
         );
         self.place_of.resize(count, 0);
@@ -217,13 +212,13 @@ impl NodeTerms<17, 0> for NodeSums {
 }
 
 impl NodeSums {
-    /// Returns the density of the boundary particle [kg/m3]; `to_surface` [m] is half the vector from the particle to
-    /// this node.
-    fn density_at(&self, parameters: &Parameters, to_surface: DVec3) -> f64 {
+    /// Returns the density of the boundary particle [kg/m3] and the share of it that acts on the water [-]. `to_surface`
+    /// [m] is half the vector from the particle to this node. Without a `waterline`, the whole particle acts.
+    fn state_at(&self, parameters: &Parameters, to_surface: DVec3, waterline: bool) -> [f64; 2] {
         let rho0 = parameters.tait.rho0;
         let occupied = f64::from(self.value[0]);
         if occupied < DRY_LIMIT {
-            return rho0;
+            return [rho0, 1.0];
         }
         // Vector from the node to the boundary particle [h].
         let back = -2.0 * to_surface / parameters.kernel.h;
@@ -236,24 +231,12 @@ impl NodeSums {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
+        // In still water, the pressure is zero at the waterline. A particle whose centre is at the waterline is half
+        // under water, and one that is half a spacing above it has left the water.
+        let waterline = waterline && parameters.gravity > 0.0;
+        let share = if waterline { (0.5 - excess / (hydrostatic * parameters.dp)).clamp(0.0, 1.0) } else { 1.0 };
         // A wall exerts no suction: air enters between the wall and water that separates from the wall.
-        rho0 + excess.max(0.0)
-    }
-
-    /// Returns the share of the boundary particle that acts on the water [-]; `to_surface` [m] is half the vector from
-    /// the particle to this node.
-    ///
-    /// The pair forces between a vertical wall and the water have no vertical sum only if boundary particles above the
-    /// waterline exert no force, because there is no water above it that would balance them. With their force, a
-    /// floating box rests too high.
-    fn share_below_waterline(&self, to_surface: DVec3) -> f64 {
-        let [occupied, x, y, z] = self.value.map(f64::from);
-        if occupied < DRY_LIMIT {
-            return 1.0;
-        }
-        let (centroid, normal) = (DVec3::new(x, y, z) / occupied, to_surface.normalize_or_zero());
-        let height = normal.z * centroid.dot(normal) - centroid.z;
-        ((WATERLINE_LIMITS[1] - height) / (WATERLINE_LIMITS[1] - WATERLINE_LIMITS[0])).clamp(0.0, 1.0)
+        [rho0 + excess.max(0.0), share]
     }
 
     /// Returns the trust in the fitted gradient, from 0 (only the fallback) to 1 (only the four equations);
@@ -333,12 +316,18 @@ mod tests {
     }
 
     #[test]
-    fn boundary_particles_above_the_waterline_of_a_vertical_wall_do_not_act() {
-        for (height, share) in [(0.0, 1.0), (0.3, 1.0), (0.425, 0.5), (0.55, 0.0), (0.8, 0.0), (-0.8, 1.0)] {
-            let water = layer(-height, 0.74, 0.0);
-            assert!((water.share_below_waterline(DVec3::X) - share).abs() < 1e-6, "{height}");
-            // Above a bed, the height of the water along the surface is zero.
-            assert_eq!(water.share_below_waterline(DVec3::Z), 1.0);
+    fn particles_of_a_body_act_below_the_waterline() {
+        let parameters = Parameters::published(0.01, 0.02, 20.0, 9.81, None);
+        // The node is 0.02 m below the waterline, so the excess density is that of a water column of 0.02 m.
+        let spacing = 1000.0 * 9.81 * 0.01 / 400.0;
+        let water = layer(0.0, 0.0, (2.0 * spacing) as f32);
+        for (height, share) in [(0.0, 1.0), (0.01, 1.0), (0.015, 1.0), (0.02, 0.5), (0.025, 0.0), (0.04, 0.0)] {
+            // The particle is this height [m] above the node.
+            let to_surface = DVec3::new(0.0, 0.0, -0.5 * height);
+            let [density, acting] = water.state_at(&parameters, to_surface, true);
+            assert!((acting - share).abs() < 1e-6, "{height}: {acting}");
+            assert!((density - 1000.0 - (2.0 * spacing - spacing * height / 0.01).max(0.0)).abs() < 1e-6);
+            assert_eq!(water.state_at(&parameters, to_surface, false), [density, 1.0]);
         }
     }
 
@@ -362,11 +351,11 @@ mod tests {
         let parameters = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
         let to_surface = DVec3::new(0.0, 0.0, 0.005);
         let rho0 = parameters.tait.rho0;
-        let pressed = layer(-0.5, 0.0, 3.0).density_at(&parameters, to_surface);
+        let pressed = layer(-0.5, 0.0, 3.0).state_at(&parameters, to_surface, false)[0];
         // `height` is from the boundary particle up to the centroid, which lies h / 2 below the ghost node.
         let height = 2.0 * to_surface.z - 0.5 * parameters.kernel.h;
         let expected = 3.0 + rho0 * parameters.gravity / parameters.tait.c0.powi(2) * height;
         assert!((pressed - rho0 - expected).abs() < 1e-6);
-        assert_eq!(layer(-0.5, 0.0, -3.0).density_at(&parameters, to_surface), rho0);
+        assert_eq!(layer(-0.5, 0.0, -3.0).state_at(&parameters, to_surface, false)[0], rho0);
     }
 }
