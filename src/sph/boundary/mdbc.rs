@@ -28,7 +28,6 @@ use crate::sph::neighbours::lists::{NeighbourLists, Sources};
 use crate::sph::neighbours::records::{Record, split_position};
 use crate::sph::parameters::Parameters;
 use crate::sph::particles::boundary::Boundary;
-use crate::sph::terms::wall_slip::{Mirroring, WallSlip};
 
 /// Smallest determinant of the matrix of the four equations, divided by (sum of W V)^4, for which the gradient is
 /// fitted [-]. The value is 1 for a full neighbourhood, 0.3 for a node at a plane water surface, 0.1 for a node at a
@@ -68,9 +67,8 @@ pub struct GhostNodes {
     pub(super) sums: Vec<NodeSums>,
     /// Place of each boundary particle in the order of the nodes.
     pub(super) place_of: Vec<u32>,
-    /// Density [kg/m3] of each boundary particle and the share of it that acts on the water [-], in the order of the
-    /// nodes.
-    states: Vec<[f64; 2]>,
+    /// Densities of the boundary particles in the order of the nodes [kg/m3].
+    densities: Vec<f64>,
 }
 
 /// Sums over the water particles around one ghost node. (x, y, z) is the vector from the node to a particle in units of
@@ -99,11 +97,11 @@ impl GhostNodes {
     pub fn bytes(&self) -> usize {
         let points = (self.points.capacity() + self.sorted.capacity()) * size_of::<DVec3>();
         let sums = self.split.capacity() * size_of::<[f32; 4]>() + self.sums.capacity() * size_of::<NodeSums>();
-        let places = self.place_of.capacity() * size_of::<u32>() + self.states.capacity() * size_of::<[f64; 2]>();
+        let places = self.place_of.capacity() * size_of::<u32>() + self.densities.capacity() * size_of::<f64>();
         points + sums + places + self.bins.bytes() + self.lists.bytes()
     }
 
-    /// Computes the density and the acting volume of each boundary particle from the water around its ghost node.
+    /// Computes the density of each boundary particle from the water around its ghost node.
     pub fn densities(
         &mut self,
         grid: &Grid,
@@ -134,29 +132,20 @@ impl GhostNodes {
         let bin_x = grid.size.x as f32;
         let nothing = vec![[0.0; 0]; count];
         sum_around_nodes(parameters, bin_x, &self.split, &nothing, &self.lists, records, &mut self.sums);
-        self.states.resize(count, [0.0; 2]);
-        let waterline = parameters.slip != WallSlip::Original;
-        let first_unit = boundary.walls().end;
-        let Boundary { to_surface, mirroring, density, volume, acting_volume, .. } = boundary;
-        (&mut self.states, &self.sums, &self.bins.order).into_par_iter().with_min_len(MIN_CHUNK).for_each(
-            |(state, sums, &i)| {
-                let i = i as usize;
-                let of_body = i >= first_unit || mirroring[i] == Mirroring::None;
-                *state = sums.state_at(parameters, to_surface[i], waterline && of_body);
-            },
-        );
+        self.densities.resize(count, 0.0);
+        (&mut self.densities, &self.sums, &self.bins.order)
+            .into_par_iter()
+            .with_min_len(MIN_CHUNK)
+            .for_each(|(density, sums, &i)| *density = sums.density_at(parameters, boundary.to_surface[i as usize]));
         self.place_of.resize(count, 0);
         for (place, &i) in self.bins.order.iter().enumerate() {
             self.place_of[i as usize] = place as u32;
         }
-        let states = &self.states;
-        (density, acting_volume, volume, &self.place_of).into_par_iter().with_min_len(MIN_CHUNK).for_each(
-            |(density, acting_volume, volume, &place)| {
-                let [at_particle, share] = states[place as usize];
-                *density = at_particle;
-                *acting_volume = share * *volume;
-            },
-        );
+        let densities = &self.densities;
+        (&mut boundary.density, &self.place_of)
+            .into_par_iter()
+            .with_min_len(MIN_CHUNK)
+            .for_each(|(density, &place)| *density = densities[place as usize]);
     }
 }
 
@@ -212,13 +201,13 @@ impl NodeTerms<17, 0> for NodeSums {
 }
 
 impl NodeSums {
-    /// Returns the density of the boundary particle [kg/m3] and the share of it that acts on the water [-]. `to_surface`
-    /// [m] is half the vector from the particle to this node. Without a `waterline`, the whole particle acts.
-    fn state_at(&self, parameters: &Parameters, to_surface: DVec3, waterline: bool) -> [f64; 2] {
+    /// Returns the density of the boundary particle [kg/m3]; `to_surface` [m] is half the vector from the particle to
+    /// this node.
+    fn density_at(&self, parameters: &Parameters, to_surface: DVec3) -> f64 {
         let rho0 = parameters.tait.rho0;
         let occupied = f64::from(self.value[0]);
         if occupied < DRY_LIMIT {
-            return [rho0, 1.0];
+            return rho0;
         }
         // Vector from the node to the boundary particle [h].
         let back = -2.0 * to_surface / parameters.kernel.h;
@@ -231,12 +220,8 @@ impl NodeSums {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
-        // In still water, the pressure is zero at the waterline. A particle whose centre is at the waterline is half
-        // under water, and one that is half a spacing above it has left the water.
-        let waterline = waterline && parameters.gravity > 0.0;
-        let share = if waterline { (0.5 - excess / (hydrostatic * parameters.dp)).clamp(0.0, 1.0) } else { 1.0 };
         // A wall exerts no suction: air enters between the wall and water that separates from the wall.
-        [rho0 + excess.max(0.0), share]
+        rho0 + excess.max(0.0)
     }
 
     /// Returns the trust in the fitted gradient, from 0 (only the fallback) to 1 (only the four equations);
@@ -316,22 +301,6 @@ mod tests {
     }
 
     #[test]
-    fn particles_of_a_body_act_below_the_waterline() {
-        let parameters = Parameters::published(0.01, 0.02, 20.0, 9.81, None);
-        // The node is 0.02 m below the waterline, so the excess density is that of a water column of 0.02 m.
-        let spacing = 1000.0 * 9.81 * 0.01 / 400.0;
-        let water = layer(0.0, 0.0, (2.0 * spacing) as f32);
-        for (height, share) in [(0.0, 1.0), (0.01, 1.0), (0.015, 1.0), (0.02, 0.5), (0.025, 0.0), (0.04, 0.0)] {
-            // The particle is this height [m] above the node.
-            let to_surface = DVec3::new(0.0, 0.0, -0.5 * height);
-            let [density, acting] = water.state_at(&parameters, to_surface, true);
-            assert!((acting - share).abs() < 1e-6, "{height}: {acting}");
-            assert!((density - 1000.0 - (2.0 * spacing - spacing * height / 0.01).max(0.0)).abs() < 1e-6);
-            assert_eq!(water.state_at(&parameters, to_surface, false), [density, 1.0]);
-        }
-    }
-
-    #[test]
     fn node_weights_give_the_same_value_as_the_equations() {
         let sums = NodeSums {
             value: [0.8, 0.05, -0.02, 0.1],
@@ -351,11 +320,11 @@ mod tests {
         let parameters = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
         let to_surface = DVec3::new(0.0, 0.0, 0.005);
         let rho0 = parameters.tait.rho0;
-        let pressed = layer(-0.5, 0.0, 3.0).state_at(&parameters, to_surface, false)[0];
+        let pressed = layer(-0.5, 0.0, 3.0).density_at(&parameters, to_surface);
         // `height` is from the boundary particle up to the centroid, which lies h / 2 below the ghost node.
         let height = 2.0 * to_surface.z - 0.5 * parameters.kernel.h;
         let expected = 3.0 + rho0 * parameters.gravity / parameters.tait.c0.powi(2) * height;
         assert!((pressed - rho0 - expected).abs() < 1e-6);
-        assert_eq!(layer(-0.5, 0.0, -3.0).state_at(&parameters, to_surface, false)[0], rho0);
+        assert_eq!(layer(-0.5, 0.0, -3.0).density_at(&parameters, to_surface), rho0);
     }
 }

@@ -20,8 +20,6 @@ pub struct Boundary {
     pub to_surface: Vec<DVec3>,
     /// Volume [m3].
     pub volume: Vec<f64>,
-    /// Volume with which the particle acts on the water [m3]: `volume`, or less above the waterline.
-    pub acting_volume: Vec<f64>,
     /// Components of the water velocity that the particle mirrors under no slip and free slip.
     pub mirroring: Vec<Mirroring>,
     /// Density [kg/m3].
@@ -98,7 +96,6 @@ impl Boundary {
         self.velocity.push(DVec3::ZERO);
         self.to_surface.push(particle.to_surface);
         self.volume.push(particle.volume);
-        self.acting_volume.push(particle.volume);
         self.mirroring.push(particle.mirroring);
         self.density.push(rho0);
     }

@@ -163,7 +163,7 @@ impl Solver {
         let fill = |out: &mut [Record], order: &[u32], offset: usize| {
             out.par_iter_mut().zip(order).with_min_len(MIN_CHUNK).for_each(|(out, &i)| {
                 let i = offset + i as usize;
-                let mass = parameters.tait.rho0 * boundary.acting_volume[i];
+                let mass = parameters.tait.rho0 * boundary.volume[i];
                 let ghost = ghost_velocities.at_node_of(i, ghosts);
                 let (wall, mirroring) = (boundary.velocity[i], boundary.mirroring[i]);
                 let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], mirroring);
@@ -343,7 +343,7 @@ impl Solver {
         let first_unit = boundary.walls().end;
         self.unit_force.resize(boundary.len() - first_unit, DVec3::ZERO);
         for (&i, rate) in self.units.bins.order.iter().zip(&self.units.rates) {
-            let mass = self.parameters.tait.rho0 * boundary.acting_volume[first_unit + i as usize];
+            let mass = self.parameters.tait.rho0 * boundary.volume[first_unit + i as usize];
             self.unit_force[i as usize] = mass * acceleration(rate);
         }
         boundary.unit_loads(centres, |i| self.unit_force[i - first_unit])
