@@ -38,6 +38,11 @@ fn above_bed(centre_z: f64, depth: f64, dp: f64) -> Deviation {
     deviation(&case)
 }
 
+/// Returns the deviation for a unit above the bed, half of whose volume is under water.
+fn half_under_water(dp: f64) -> Deviation {
+    above_bed(0.1045, 0.1, dp)
+}
+
 /// Runs a case. Archimedes' force is that of the water level in the corners of the tank.
 fn deviation(case: &Value) -> Deviation {
     let mut tank = simulation(case);
@@ -126,6 +131,11 @@ fn a_unit_three_quarters_under_water_has_its_buoyancy() {
 }
 
 #[test]
+fn a_unit_half_under_water_has_its_buoyancy() {
+    half_under_water(0.01).assert_below(0.12, 0.01);
+}
+
+#[test]
 fn a_unit_one_third_under_water_has_its_buoyancy() {
     // The three lower legs are half under water, with one or two particles in their draft. The force is that of a water
     // level 1.6 mm higher.
@@ -144,6 +154,7 @@ fn buoyancy_holds_at_coarse_and_fine_resolution() {
     for (dp, vertical) in [(0.015, 0.1), (0.0075, 0.015)] {
         four_deviations(dp).into_iter().for_each(|deviation| deviation.assert_below(vertical, 0.01));
     }
+    half_under_water(0.0075).assert_below(0.03, 0.01);
 }
 
 #[test]
@@ -151,4 +162,5 @@ fn buoyancy_holds_at_coarse_and_fine_resolution() {
     cargo test --release --test verification -- --ignored --nocapture buoyancy_holds_at_full_resolution"]
 fn buoyancy_holds_at_full_resolution() {
     four_deviations(0.005).into_iter().for_each(|deviation| deviation.assert_below(0.015, 0.01));
+    half_under_water(0.005).assert_below(0.015, 0.01);
 }
