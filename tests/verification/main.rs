@@ -9,6 +9,7 @@ mod convergence;
 mod diffusion;
 mod dry_tests;
 mod femdem;
+mod fixed_box;
 mod flow_over_mound;
 mod flume_ends;
 mod flume_order;
