@@ -63,7 +63,7 @@ impl Parameters {
             dp,
             kernel: Wendland::new(h),
             tait,
-            viscosity: Viscosity::Artificial { alpha: 0.04 },
+            viscosity: Viscosity::Artificial { alpha: 0.04, beta: 0.0 },
             diffusion: Diffusion::new(DensityDiffusion::Fourtakas, 0.1, h, &tait, gravity),
             own_x: [f64::NEG_INFINITY, f64::INFINITY],
             gravity,

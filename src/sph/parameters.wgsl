@@ -33,7 +33,9 @@ struct Parameters {
     gravity: f32,
     // Vertical density gradient at hydrostatic pressure, -rho0 g / c0^2 [kg/m4]; mDBC extrapolates densities with it.
     density_slope: f32,
-    padding: vec2<f32>,
+    // Coefficient beta of the quadratic part of the artificial viscosity [-].
+    beta: f32,
+    padding: f32,
     // Between these limits, the trust in a fitted gradient changes: limits of the distance from a ghost node to the
     // centroid of the water around it [h], and of the spread of this water [h2] (mdbc.rs).
     centroid_limits: vec2<f32>,

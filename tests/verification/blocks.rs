@@ -38,7 +38,7 @@ const EDGE: usize = 20;
 /// Returns the parameters of a scheme without viscosity, diffusion and gravity.
 pub fn ideal(dp: f64, periodic_width: Option<f64>) -> Parameters {
     let mut parameters = parameters(dp, 0.2, 0.0, periodic_width);
-    parameters.viscosity = Viscosity::Artificial { alpha: 0.0 };
+    parameters.viscosity = Viscosity::Artificial { alpha: 0.0, beta: 0.0 };
     parameters.diffusion = Diffusion::none();
     parameters
 }

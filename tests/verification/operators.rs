@@ -1,13 +1,16 @@
 //! Kernel sums of the solver compared with exact values: moments of the kernel, gradients, divergence.
 
+use std::f64::consts::PI;
+
 use breakwater::sph::{
     pairs::rate::Rate,
-    terms::{kernel::Wendland, turbulence::Smagorinsky},
+    parameters::Parameters,
+    terms::{kernel::Wendland, turbulence::Smagorinsky, viscosity::Viscosity},
 };
 use glam::DVec3;
 
 use super::blocks::{
-    DP, JITTER, USUAL, block, gradients_of_block, ideal, inside, lattice_error_of_gradient, rates_of_block, rms,
+    DP, JITTER, USUAL, block, gradients_of_block, ideal, inside, lattice_error_of_gradient, rates, rates_of_block, rms,
     whole_axes,
 };
 use super::lattice::{aliasing, gradient_factor, lattice_sum, mean_over_jitter, value};
@@ -199,4 +202,28 @@ fn density_rate_of_a_linear_velocity_has_the_lattice_error() {
     // Limit 2e-6: in single precision, velocities of 2 m/s have errors of 1.2e-7 m/s and positions of 0.1 m errors of
     // 7e-9 m. The differences between neighbours are about 0.1 m/s and 0.02 m.
     assert!(worst < 2e-6 && rotating < 2e-6, "{worst} {rotating}");
+}
+
+/// In the shear flow u = S z + K z^2 / 2, the acceleration by a viscosity nu is nu K; by a viscosity C h^2 |du/dz|, it is
+/// 2 C h^2 S K in the middle. Artificial viscosity acts only on the half of the pairs that approach each other. With the
+/// means of n_x^2 n_z^2 and |n_x n_z|^3 over all directions, 1/15 and 8/(105 pi), and the integral of -G r^2 over space,
+/// which is 3, the viscosities are alpha h c0 / 20 and 2/(35 pi) beta h^2 |du/dz|.
+#[test]
+fn artificial_viscosity_acts_like_a_viscosity_in_shear() {
+    const SHEAR: f64 = 10.0;
+    const CURVATURE: f64 = 20.0;
+    let acceleration = |alpha: f64, beta: f64| {
+        let parameters = Parameters { viscosity: Viscosity::Artificial { alpha, beta }, ..ideal(DP, None) };
+        let flow = |p: DVec3| DVec3::X * (SHEAR * p.z + 0.5 * CURVATURE * p.z * p.z);
+        let (water, rates) = rates(parameters, block(0.0, |_| RHO0, flow), DVec3::splat(-0.15), DVec3::splat(0.15));
+        let inner = || (0..rates.len()).filter(|&i| inside(water.position[i]));
+        inner().map(|i| f64::from(rates[i].acceleration[0])).sum::<f64>() / inner().count() as f64
+    };
+    let (h, c0) = (USUAL * DP, ideal(DP, None).tait.c0);
+    let (alpha, beta) = (0.04, 0.3);
+    let linear = acceleration(alpha, 0.0) / (alpha * h * c0 / 20.0 * CURVATURE);
+    let quadratic = acceleration(0.0, beta) / (2.0 * 2.0 / (35.0 * PI) * beta * h * h * SHEAR * CURVATURE);
+    println!("acceleration over that of theory: alpha {linear:.4}, beta {quadratic:.4}");
+    // Limit 5 %: the term 0.01 h^2 in mu weakens the nearest pairs by 4 %.
+    assert!((linear - 1.0).abs() < 0.05 && (quadratic - 1.0).abs() < 0.05, "{linear} {quadratic}");
 }

@@ -72,7 +72,7 @@ impl Stream {
         let dp = UNIT_HEIGHT / particles;
         let size = position.box_size().map(|heights| (heights * particles).round() * dp);
         let mut tank = BareTank::closed(size, dp, C0, &particles_of(&unit, dp), |parameters| {
-            parameters.viscosity = Viscosity::Artificial { alpha };
+            parameters.viscosity = Viscosity::Artificial { alpha, beta: 0.0 };
             // Free slip on the walls of the box; units have no slip.
             parameters.slip = WallSlip::FreeSlip;
             parameters.boundary = boundary;

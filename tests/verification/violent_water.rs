@@ -13,7 +13,7 @@ use super::tanks::{BareTank, RHO0, run_until, simulation};
 /// The wave is half a wavelength long, from wall to wall.
 fn decay_rate(alpha_2: f64, side: f64, dp: f64, c0: f64) -> f64 {
     let mut tank = BareTank::closed([side, 5.0 * dp], dp, c0, &[], |parameters| {
-        parameters.viscosity = Viscosity::Artificial { alpha: 0.0 };
+        parameters.viscosity = Viscosity::Artificial { alpha: 0.0, beta: 0.0 };
         parameters.diffusion = Diffusion::none();
         parameters.slip = WallSlip::FreeSlip;
         parameters.cfl = 0.2;

@@ -14,6 +14,12 @@ pub struct NumericsFile {
     pub viscosity: Viscosity,
     /// Coefficient alpha of artificial viscosity [-] (equation 3). The other viscosity models ignore this key.
     pub viscosity_alpha: f64,
+    /// Coefficient beta of the quadratic part of artificial viscosity [-] (Monaghan 1992), which goes with the square of
+    /// the velocity differences. The other viscosity models ignore this key.
+    // Left out of the serialized case at its default, so that older cases keep their hash, as are `wall_friction`,
+    // `slip_on_units` and `gap_pressure`.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub viscosity_beta: f64,
     /// Kinematic viscosity nu of the laminar models [m2/s]. Artificial viscosity ignores this key.
     pub kinematic_viscosity_m2_s: f64,
     /// Form of the density diffusion, which smooths numerical noise in the density.
@@ -38,8 +44,10 @@ pub struct NumericsFile {
     /// `dbc`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_slip: Option<WallSlip>,
-    // This key and the next key are left out of the serialized case at their defaults, so that older cases keep their
-    // hash.
+    /// Friction coefficient c_f of bed, walls and obstacles [-]: their stress on the water is rho / 2 c_f u^2. Only used
+    /// if `wall_slip` is `free_slip`.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub wall_friction: f64,
     /// true: free slip at the units, too. false: boundary particles of a unit have the tangential velocity of the unit.
     /// Only used if `wall_slip` is `free_slip`.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -60,6 +68,7 @@ impl Default for NumericsFile {
             smoothing_factor: 1.2,
             viscosity: Viscosity::Artificial,
             viscosity_alpha: 0.04,
+            viscosity_beta: 0.0,
             kinematic_viscosity_m2_s: 1e-6,
             density_diffusion: DensityDiffusion::Fourtakas,
             diffusion_delta: 0.1,
@@ -69,12 +78,18 @@ impl Default for NumericsFile {
             cfl: 0.4,
             boundary: Boundary::Mdbc,
             wall_slip: None,
+            wall_friction: 0.0,
             slip_on_units: false,
             gap_pressure: true,
             boundary_layers: 3,
             hold_units_s: 0.2,
         }
     }
+}
+
+/// Returns true for zero.
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 /// Viscosity model.

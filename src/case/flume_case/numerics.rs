@@ -26,6 +26,8 @@ pub struct Numerics {
     pub viscosity: Viscosity,
     /// Coefficient alpha of artificial viscosity [-].
     pub alpha: f64,
+    /// Coefficient beta of the quadratic part of artificial viscosity [-].
+    pub beta: f64,
     /// Kinematic viscosity nu of the laminar models [m2/s].
     pub nu: f64,
     /// Form of the density diffusion.
@@ -44,6 +46,8 @@ pub struct Numerics {
     pub boundary: Boundary,
     /// Velocity condition at bed and walls.
     pub wall_slip: WallSlip,
+    /// Friction coefficient c_f of bed, walls and obstacles [-].
+    pub wall_friction: f64,
     /// true: free slip at the units, too. false: boundary particles of a unit have the tangential velocity of the unit.
     pub slip_on_units: bool,
     /// true if water pressure also acts on units in gaps that are too narrow for water particles.
@@ -114,6 +118,7 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         "",
         "0.01 to 0.1 is usual",
     );
+    check.number("numerics.viscosity_beta", file.viscosity_beta, at_least(0.0).up_to(10.0), "", "0 for none");
     check.number(
         "numerics.kinematic_viscosity_m2_s",
         file.kinematic_viscosity_m2_s,
@@ -143,6 +148,7 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         "0 for none; 2 is usual",
     );
     let wall_slip = validate_slip(file, check);
+    check.number("numerics.wall_friction", file.wall_friction, at_least(0.0).up_to(0.5), "", "smooth: 0.003 to 0.005");
     check.number("numerics.diffusion_delta", file.diffusion_delta, at_least(0.0).up_to(1.0), "", "0.1 is usual");
     let advice = "0.4 is usual; 0.2 is the default of DualSPHysics";
     check.number("numerics.cfl", file.cfl, at_least(0.001).up_to(0.5), "", advice);
@@ -176,6 +182,7 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         h,
         viscosity: file.viscosity,
         alpha: file.viscosity_alpha,
+        beta: file.viscosity_beta,
         nu: file.kinematic_viscosity_m2_s,
         density_diffusion: file.density_diffusion,
         delta: file.diffusion_delta,
@@ -185,6 +192,7 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         cfl: file.cfl,
         boundary: file.boundary,
         wall_slip,
+        wall_friction: file.wall_friction,
         slip_on_units: file.slip_on_units,
         gap_pressure: file.gap_pressure,
         boundary_layers: file.boundary_layers as usize,
@@ -232,6 +240,7 @@ fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
     let no_diffusion = file.density_diffusion == DensityDiffusion::None;
     let ignored = [
         (!artificial && file.viscosity_alpha != defaults.viscosity_alpha, "viscosity_alpha", "viscosity is laminar"),
+        (!artificial && file.viscosity_beta != 0.0, "viscosity_beta", "viscosity is laminar"),
         (
             artificial && file.kinematic_viscosity_m2_s != defaults.kinematic_viscosity_m2_s,
             "kinematic_viscosity_m2_s",
@@ -243,6 +252,7 @@ fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
             "density_diffusion is none",
         ),
         (!file.gap_pressure && file.boundary == Boundary::Dbc, "gap_pressure", "boundary is dbc"),
+        (file.wall_friction != 0.0 && !has_free_slip, "wall_friction", "wall_slip is not free_slip"),
         (file.slip_on_units && !has_free_slip, "slip_on_units", "wall_slip is not free_slip"),
     ];
     for (_, key, reason) in ignored.iter().filter(|(is_ignored, ..)| *is_ignored) {

@@ -25,6 +25,9 @@ use crate::{
 /// [-]. In calm water, the distance of the nearest particles is twice as large.
 pub const NEAREST: f64 = 0.25;
 
+/// Number of particles in a chunk.
+const CHUNK: usize = 4096;
+
 impl Simulation {
     /// Removes the velocity components of near water particles towards bed, walls, obstacles, wavemaker and units, at
     /// the end of a time step of length `dt` [s]. Adds the impulses on the units, divided by `dt`, to the water loads.
@@ -45,9 +48,10 @@ impl Simulation {
         let dp = case.domain.dp;
         let nearest = NEAREST * dp;
         // A graphics card returns only the particles near surfaces. On a processor, the bins give these particles.
+        let mut taken = 0.0;
         let mut keep_out = |water: &mut Water, bins: Option<&Bins>| {
             let is_near = |particle: usize| bins.is_none_or(|bins| bins_near_surfaces[bins.bin_at[particle] as usize]);
-            keep_out_of_fixed_solids(water, case, outline, is_near);
+            taken = keep_out_of_fixed_solids(water, case, outline, is_near, dt);
             for (end, rows) in ends.iter().zip(&rows) {
                 keep_out_of_end(water, end, rows, dp, nearest);
             }
@@ -67,6 +71,7 @@ impl Simulation {
                 }
             }
         }
+        self.statistics.balance.friction -= taken;
         Ok(())
     }
 }
@@ -108,11 +113,16 @@ fn without_approach(velocity: DVec3, normal: DVec3) -> DVec3 {
     velocity - velocity.dot(normal).min(0.0) * normal
 }
 
-/// Returns for each bin whether its particles can be nearer than [`NEAREST`] to bed, end walls, side walls or obstacles
+/// Returns the distance from fixed surfaces within which they act on single water particles [m].
+fn reach(case: &Case) -> f64 {
+    if case.numerics.wall_friction > 0.0 { case.domain.dp } else { NEAREST * case.domain.dp }
+}
+
+/// Returns for each bin whether its particles can be nearer than [`reach`] to bed, end walls, side walls or obstacles
 /// at the end of the time step. Half a bin is allowed for their motion since they were sorted into bins.
 pub(super) fn bins_near_surfaces(case: &Case, outline: &Outline, grid: &Grid) -> Vec<bool> {
     let [nx, ny, nz] = grid.count;
-    let reach = NEAREST * case.domain.dp + 0.5 * grid.size.length() + 0.5 * grid.size.x;
+    let reach = reach(case) + 0.5 * grid.size.length() + 0.5 * grid.size.x;
     let has_side_walls = case.domain.sides == Sides::Walls;
     let middle = |axis: usize, bin: usize| grid.low[axis] + (bin as f64 + 0.5) * grid.size[axis];
     let is_near = |bin: usize| {
@@ -129,42 +139,77 @@ pub(super) fn bins_near_surfaces(case: &Case, outline: &Outline, grid: &Grid) ->
 }
 
 /// Removes the velocity components towards bed, end walls, side walls and obstacles of the particles for which
-/// `is_near` is true.
-fn keep_out_of_fixed_solids(water: &mut Water, case: &Case, outline: &Outline, is_near: impl Fn(usize) -> bool + Sync) {
-    let (domain, nearest) = (&case.domain, NEAREST * case.domain.dp);
-    let particles = (&water.position, &mut water.velocity).into_par_iter().enumerate().with_min_len(4096);
-    particles.for_each(|(particle, (position, velocity))| {
-        if !is_near(particle) {
-            return;
-        }
-        if let Some(normal) = outline.normal_within(DVec2::new(position.x, position.z), nearest) {
-            *velocity = without_approach(*velocity, DVec3::new(normal.x, 0.0, normal.y));
-        }
-        if domain.sides == Sides::Walls {
-            if position.y < nearest {
-                velocity.y = velocity.y.max(0.0);
+/// `is_near` is true, and slows them by the friction of these surfaces during `dt` [s]. Returns the energy that the
+/// friction takes from the water [J].
+fn keep_out_of_fixed_solids(
+    water: &mut Water,
+    case: &Case,
+    outline: &Outline,
+    is_near: impl Fn(usize) -> bool + Sync,
+    dt: f64,
+) -> f64 {
+    let (domain, nearest, reach) = (&case.domain, NEAREST * case.domain.dp, reach(case));
+    let slowing = 0.5 * case.numerics.wall_friction * dt / domain.dp;
+    // The chunks have a fixed length, so that sums do not depend on the number of threads.
+    let chunks = (water.position.par_chunks(CHUNK), water.velocity.par_chunks_mut(CHUNK), water.mass.par_chunks(CHUNK));
+    let taken: Vec<f64> = chunks
+        .into_par_iter()
+        .enumerate()
+        .map(|(chunk, (positions, velocities, masses))| {
+            let mut taken = 0.0;
+            for (k, ((position, velocity), mass)) in positions.iter().zip(velocities).zip(masses).enumerate() {
+                if !is_near(chunk * CHUNK + k) {
+                    continue;
+                }
+                let mut meet = |normal: DVec3, distance: f64| {
+                    if distance < nearest {
+                        *velocity = without_approach(*velocity, normal);
+                    }
+                    let slower = slowed(*velocity, normal, slowing);
+                    taken += 0.5 * mass * (velocity.length_squared() - slower.length_squared());
+                    *velocity = slower;
+                };
+                if let Some((normal, distance)) = outline.normal_within(DVec2::new(position.x, position.z), reach) {
+                    meet(DVec3::new(normal.x, 0.0, normal.y), distance);
+                }
+                if domain.sides == Sides::Walls {
+                    for (distance, normal) in [(position.y, DVec3::Y), (domain.width - position.y, DVec3::NEG_Y)] {
+                        if distance < reach {
+                            meet(normal, distance);
+                        }
+                    }
+                }
+                for obstacle in &domain.obstacles {
+                    if let Some((normal, distance)) = near_obstacle(obstacle, *position, reach) {
+                        meet(normal, distance);
+                    }
+                }
             }
-            if position.y > domain.width - nearest {
-                velocity.y = velocity.y.min(0.0);
-            }
-        }
-        for obstacle in &domain.obstacles {
-            if let Some(normal) = normal_of_obstacle(obstacle, *position, nearest) {
-                *velocity = without_approach(*velocity, normal);
-            }
-        }
-    });
+            taken
+        })
+        .collect();
+    taken.iter().sum()
 }
 
-/// Returns the outward normal of an obstacle at `position`; `None` if this point is not within `nearest` [m] of the
-/// obstacle.
-fn normal_of_obstacle(obstacle: &AxisBox, position: DVec3, nearest: f64) -> Option<DVec3> {
+/// Returns the velocity after a time step in which a wall slows the water along it. The stress rho / 2 c_f u^2 acts on
+/// the layer of water within dp of the wall, so du/dt = -c_f u^2 / (2 dp), with the exact solution
+/// u / (1 + u c_f dt / (2 dp)). `slowing` is c_f dt / (2 dp) [s/m].
+fn slowed(velocity: DVec3, normal: DVec3, slowing: f64) -> DVec3 {
+    let across = velocity.dot(normal) * normal;
+    let along = velocity - across;
+    across + along / (1.0 + slowing * along.length())
+}
+
+/// Returns the outward normal of an obstacle at `position` and the distance from it [m], negative inside; `None` if this
+/// point is not within `reach` [m] of the obstacle.
+fn near_obstacle(obstacle: &AxisBox, position: DVec3, reach: f64) -> Option<(DVec3, f64)> {
     // Skip particles that are not near the obstacle, before the slower search for the surface point.
-    if (position - obstacle.nearest(position)).length_squared() >= nearest * nearest {
+    if (position - obstacle.nearest(position)).length_squared() >= reach * reach {
         return None;
     }
     let (surface, distance) = obstacle.locate(position);
-    (if distance > 0.0 { position - surface } else { surface - position }).try_normalize()
+    let normal = (if distance > 0.0 { position - surface } else { surface - position }).try_normalize()?;
+    Some((normal, distance))
 }
 
 /// Removes the velocity components of near water particles towards the rows of a moving end, which have the
@@ -264,6 +309,15 @@ fn candidates<'a>(grid: &Grid, bins: &'a Bins, centre: DVec3, reach: f64) -> imp
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn friction_slows_the_water_along_the_wall_as_the_exact_solution() {
+        let (velocity, steps) = (DVec3::new(3.0, 4.0, 1.0), 7);
+        let slower = (0..steps).fold(velocity, |v, _| slowed(v, DVec3::Z, 0.01));
+        let exact = DVec3::new(3.0, 4.0, 0.0) / (1.0 + 0.01 * f64::from(steps) * 5.0) + DVec3::Z;
+        // Limit 1e-14: rounding.
+        assert!((slower - exact).length() < 1e-14);
+    }
 
     #[test]
     fn only_the_velocity_towards_the_surface_is_removed() {

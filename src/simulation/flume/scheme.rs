@@ -40,7 +40,7 @@ pub fn parameters(case: &Case) -> Parameters {
         dp,
         kernel,
         viscosity: match numerics.viscosity {
-            case::Viscosity::Artificial => Viscosity::Artificial { alpha: numerics.alpha },
+            case::Viscosity::Artificial => Viscosity::Artificial { alpha: numerics.alpha, beta: numerics.beta },
             case::Viscosity::Laminar => laminar(None),
             case::Viscosity::LaminarMonaghanGingold => Viscosity::MonaghanGingold { nu: numerics.nu },
             case::Viscosity::LaminarSps => laminar(Some(Smagorinsky::new(dp))),

@@ -30,7 +30,8 @@ pub struct Constants {
     curvature: f32,
     gravity: f32,
     density_slope: f32,
-    padding: [f32; 2],
+    beta: f32,
+    padding: f32,
     centroid_limits: [f32; 2],
     spread_limits: [f32; 2],
     least_determinant: f32,
@@ -59,7 +60,10 @@ impl Constants {
     pub fn new(parameters: &Parameters, grid: &Grid, bounds: [DVec3; 2], particles: [usize; 2]) -> Self {
         let [water, boundary] = particles.map(|n| n as u32);
         let Parameters { kernel, tait, gravity, .. } = *parameters;
-        let alpha = if let Viscosity::Artificial { alpha } = parameters.viscosity { alpha as f32 } else { 0.0 };
+        let [alpha, beta] = match parameters.viscosity {
+            Viscosity::Artificial { alpha, beta } => [alpha as f32, beta as f32],
+            Viscosity::Laminar { .. } | Viscosity::MonaghanGingold { .. } => [0.0; 2],
+        };
         let [hydrostatic, curvature] = parameters.diffusion.hydrostatic();
         let [low, high] = bounds.map(|point| (point - grid.low).as_vec3().to_array());
         Self {
@@ -79,7 +83,8 @@ impl Constants {
             curvature,
             gravity: gravity as f32,
             density_slope: (-tait.rho0 * gravity / tait.c0.powi(2)) as f32,
-            padding: [0.0; 2],
+            beta,
+            padding: 0.0,
             centroid_limits: CENTROID_LIMITS.map(|t| t as f32),
             spread_limits: SPREAD_LIMITS.map(|t| t as f32),
             least_determinant: MIN_DETERMINANT as f32,
@@ -102,7 +107,7 @@ impl Constants {
     /// They set `boundary` to 0, so that the shader computes no rates of boundary particles.
     pub fn of_pressure_alone(self) -> Self {
         let [hydrostatic, curvature] = Diffusion::none().hydrostatic();
-        Self { boundary: 0, alpha: 0.0, diffusion: 0.0, hydrostatic, curvature, ..self }
+        Self { boundary: 0, alpha: 0.0, beta: 0.0, diffusion: 0.0, hydrostatic, curvature, ..self }
     }
 }
 

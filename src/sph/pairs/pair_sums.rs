@@ -36,8 +36,8 @@ pub(super) struct Artificial;
 impl Resistance for Artificial {
     #[inline(always)]
     fn stress<L: Lanes>(constants: &Constants, approach: L, a: &Members<L>, b: &Record, rho_b: L) -> L {
-        let &Constants { alpha, h, .. } = constants;
-        viscous_stress(alpha, h, approach, a.sound_speed, L::splat(b.sound_speed), a.density, rho_b)
+        let &Constants { artificial, h, .. } = constants;
+        viscous_stress(artificial, h, approach, a.sound_speed, L::splat(b.sound_speed), a.density, rho_b)
     }
 }
 
@@ -79,8 +79,8 @@ pub(super) struct Constants {
     diffusion: Diffusion,
     h: f32,
     rho0: f32,
-    /// Coefficient alpha of the artificial viscosity [-].
-    alpha: f32,
+    /// Coefficients alpha and beta of the artificial viscosity [-].
+    artificial: [f32; 2],
     /// Kinematic viscosity nu of the laminar viscosity; in Monaghan & Gingold's form K nu with K = 2 (D + 2) in D
     /// dimensions [m2/s].
     nu: f32,
@@ -124,13 +124,13 @@ pub(super) struct Sums<L> {
 impl Constants {
     pub(super) fn new(parameters: &Parameters) -> Self {
         let Parameters { kernel, diffusion, tait, viscosity, .. } = *parameters;
-        let (alpha, nu) = match viscosity {
-            Viscosity::Artificial { alpha } => (alpha, 0.0),
-            Viscosity::Laminar { nu, .. } => (0.0, nu),
-            Viscosity::MonaghanGingold { nu } => (0.0, 2.0 * (f64::from(kernel.dimensions()) + 2.0) * nu),
+        let (artificial, nu) = match viscosity {
+            Viscosity::Artificial { alpha, beta } => ([alpha, beta], 0.0),
+            Viscosity::Laminar { nu, .. } => ([0.0; 2], nu),
+            Viscosity::MonaghanGingold { nu } => ([0.0; 2], 2.0 * (f64::from(kernel.dimensions()) + 2.0) * nu),
         };
         let (h, rho0) = (kernel.h as f32, tait.rho0 as f32);
-        Self { kernel, diffusion, h, rho0, alpha: alpha as f32, nu: nu as f32 }
+        Self { kernel, diffusion, h, rho0, artificial: artificial.map(|c| c as f32), nu: nu as f32 }
     }
 
     /// Returns the relative position of a neighbour from r_ab [m].

@@ -33,7 +33,10 @@ fn pair(sums: ptr<function, Sums>, a: Record, b: Record, r: vec3<f32>, r2: f32, 
     let rho_b = parameters.rho0 + b.state.x;
     // Artificial viscosity, equation 3.
     let approach = v_dot_r / (r2 + 0.01 * parameters.h * parameters.h);
-    var viscous = (a.state.z + b.state.z) * (rho_a + rho_b) * (-0.25 * parameters.alpha * parameters.h * min(approach, 0.0));
+    let h = parameters.h;
+    let closing = min(approach, 0.0);
+    let per_closing = 0.5 * parameters.beta * h * h * closing - 0.25 * parameters.alpha * h * (a.state.z + b.state.z);
+    var viscous = (rho_a + rho_b) * closing * per_closing;
     if a.state.w >= UNIT && b.state.w != WATER {
         viscous = 0.0;
     }

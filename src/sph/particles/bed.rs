@@ -60,9 +60,9 @@ impl Outline {
             .expect("an outline has at least one segment")
     }
 
-    /// Returns the unit normal, directed into the water, at the outline point nearest to `point`. Returns `None` if
-    /// `point` is in the water and `max_distance` [m] or more from the outline.
-    pub fn normal_within(&self, point: DVec2, max_distance: f64) -> Option<DVec2> {
+    /// Returns the unit normal, directed into the water, at the outline point nearest to `point`, and the distance to
+    /// this point [m], negative behind the outline. Returns `None` if the distance is `max_distance` [m] or more.
+    pub fn normal_within(&self, point: DVec2, max_distance: f64) -> Option<(DVec2, f64)> {
         let is_far = |segment: &[DVec2]| {
             let normal = left_normal(segment);
             // True if the point lies in front of the line through this segment, further away than `max_distance`.
@@ -83,7 +83,7 @@ impl Outline {
                 best = Some((signed, left_normal(segment)));
             }
         }
-        best.filter(|(signed, _)| *signed < max_distance).map(|(_, normal)| normal)
+        best.filter(|(signed, _)| *signed < max_distance).map(|(signed, normal)| (normal, signed))
     }
 
     /// Returns true if a point of the outline is nearer than `reach` [m] to a convex edge.

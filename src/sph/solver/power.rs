@@ -43,7 +43,7 @@ impl Solver {
         let parameters = self.parameters;
         let pressure_only = self.rates_with(
             match parameters.viscosity {
-                Viscosity::Artificial { .. } => Viscosity::Artificial { alpha: 0.0 },
+                Viscosity::Artificial { .. } => Viscosity::Artificial { alpha: 0.0, beta: 0.0 },
                 Viscosity::Laminar { .. } => Viscosity::Laminar { nu: 0.0, turbulence: None },
                 Viscosity::MonaghanGingold { .. } => Viscosity::MonaghanGingold { nu: 0.0 },
             },

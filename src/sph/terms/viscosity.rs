@@ -1,7 +1,9 @@
 //! Equation 3: artificial viscosity (Monaghan 1992),
-//! Pi_ab = -alpha c_ab mu_ab / rho_ab with mu_ab = h v_ab . r_ab / (r_ab^2 + 0.01 h^2) where v_ab . r_ab < 0, else 0;
-//! alpha is a coefficient; c_ab and rho_ab are the mean speed of sound and the mean density of the particles a and b.
-//! [`terms`](super) defines the other symbols.
+//! Pi_ab = (-alpha c_ab mu_ab + beta mu_ab^2) / rho_ab with mu_ab = h v_ab . r_ab / (r_ab^2 + 0.01 h^2) where
+//! v_ab . r_ab < 0, else 0; alpha and beta are coefficients; c_ab and rho_ab are the mean speed of sound and the mean
+//! density of the particles a and b. [`terms`](super) defines the other symbols. The linear part acts like a constant
+//! viscosity. The quadratic part acts like a viscosity of the order of beta h^2 |S| with the strain rate S: forces on
+//! bodies then go with the square of the velocity.
 //!
 //! The alternative is laminar viscosity nu, in two forms. The acceleration of Lo & Shao (2002),
 //!
@@ -27,6 +29,8 @@ pub enum Viscosity {
     Artificial {
         /// Coefficient alpha of equation 3 [-].
         alpha: f64,
+        /// Coefficient beta of the quadratic part [-].
+        beta: f64,
     },
     /// Laminar viscosity (Lo & Shao 2002), with or without sub-particle-scale turbulence.
     Laminar {
@@ -50,13 +54,16 @@ pub fn approach_rate<R: Real>(h: f32, v_dot_r: R, r2: R) -> R {
 }
 
 /// Returns rho_a rho_b Pi_ab of equation 3 [Pa], never negative, because artificial viscosity resists only approach.
-/// `rate` is the [`approach_rate`] [1/s].
+/// `coefficients` are alpha and beta; `rate` is the [`approach_rate`] [1/s].
 #[inline(always)]
-pub fn viscous_stress<R: Real>(alpha: f32, h: f32, rate: R, c_a: R, c_b: R, rho_a: R, rho_b: R) -> R {
-    // 0.25 is the product of the factors 1/2 of the means c_ab and rho_ab. The mean density rho_ab replaces
-    // rho_a rho_b / rho_ab; the difference is (rho_a - rho_b)^2 / (4 rho_ab). In weakly compressible flow, this
-    // difference is below 1e-5 of rho_ab, which is less than single precision resolves in the sum.
-    (c_a + c_b) * (rho_a + rho_b) * (R::splat(-0.25 * alpha * h) * rate.min(R::splat(0.0)))
+pub fn viscous_stress<R: Real>(coefficients: [f32; 2], h: f32, rate: R, c_a: R, c_b: R, rho_a: R, rho_b: R) -> R {
+    // 0.5 is the factor of the mean density rho_ab, which replaces rho_a rho_b / rho_ab; the difference is
+    // (rho_a - rho_b)^2 / (4 rho_ab). In weakly compressible flow, this difference is below 1e-5 of rho_ab, which is
+    // less than single precision resolves in the sum.
+    let [alpha, beta] = coefficients;
+    let approach = rate.min(R::splat(0.0));
+    let linear = R::splat(-0.25 * alpha * h) * (c_a + c_b);
+    (rho_a + rho_b) * approach * R::splat(0.5 * beta * h * h).mul_add(approach, linear)
 }
 
 /// Returns the factor of v_ab in the acceleration of Lo & Shao, multiplied by rho_a / (V_b G) [Pa s]. Because
@@ -84,12 +91,12 @@ mod tests {
         let h = 0.02_f32;
         let closing = approach_rate(h, -1e-3_f64, 1e-4);
         let separating = approach_rate(h, 1e-3_f64, 1e-4);
-        assert_eq!(viscous_stress(0.04, h, separating, 30.0, 30.0, 1000.0, 1000.0), 0.0);
-        let stress = viscous_stress(0.04, h, closing, 30.0, 30.0, 1000.0, 1010.0);
+        assert_eq!(viscous_stress([0.04, 0.3], h, separating, 30.0, 30.0, 1000.0, 1000.0), 0.0);
+        let stress = viscous_stress([0.04, 0.3], h, closing, 30.0, 30.0, 1000.0, 1010.0);
         // `exact` is equation 3 times rho_a rho_b. Limit 1e-4: replacement of rho_a rho_b / rho_ab by the mean density,
         // and single-precision constants.
         let mu = 0.02 * -1e-3 / (1e-4 + 0.01 * 0.02 * 0.02);
-        let exact = -0.04 * 30.0 * mu / 1005.0 * 1000.0 * 1010.0;
+        let exact = (-0.04 * 30.0 * mu + 0.3 * mu * mu) / 1005.0 * 1000.0 * 1010.0;
         assert!((stress / exact - 1.0).abs() < 1e-4);
     }
 }

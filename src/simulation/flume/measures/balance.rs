@@ -19,6 +19,9 @@ pub struct Balance {
     pub viscosity: f64,
     /// From density diffusion.
     pub diffusion: f64,
+    /// From the friction of bed and walls, added in every time step; negative for a loss.
+    #[serde(default)]
+    pub friction: f64,
     /// From damping and relaxation zones, and with the water that flows through open ends, added in every time step.
     pub zones: f64,
     /// Time [s] of the last row, and the powers [W] of boundaries, viscosity and diffusion at that time.

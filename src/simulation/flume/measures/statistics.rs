@@ -81,13 +81,14 @@ impl Statistics {
         self.water_since_row = Some([m.max(mach), low.min(lowest_density), high.max(highest_density)]);
     }
 
-    /// Adds what a coarser region has counted since the last call: extremes of its water, energy received in zones,
-    /// water exchanged by open ends, and warnings.
+    /// Adds what a coarser region has counted since the last call: extremes of its water, energy received in zones and
+    /// from friction, water exchanged by open ends, and warnings.
     pub fn add_region(&mut self, region: &mut Self) {
         if let Some([mach, lowest, highest]) = region.take_water_since_row() {
             self.count_water(mach, lowest, highest);
         }
         self.balance.zones += std::mem::take(&mut region.balance.zones);
+        self.balance.friction += std::mem::take(&mut region.balance.friction);
         for (all, of_region) in self.exchanged.iter_mut().zip(std::mem::take(&mut region.exchanged)) {
             *all += of_region;
         }

@@ -331,7 +331,7 @@ fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 10] {
         energy.units_kinetic,
         energy.units_potential,
         balance.boundary,
-        balance.viscosity,
+        balance.viscosity + balance.friction,
         balance.diffusion,
         balance.zones,
     ]
