@@ -121,24 +121,25 @@ fn run(tank: &Tank) -> Results {
 }
 
 /// Returns the complex amplitude A of Re(A exp(-i omega t)) in a series over whole periods, by the trapezoidal rule.
-fn first_harmonic(series: &[[f64; 2]], omega: f64) -> DVec2 {
+pub fn first_harmonic(series: &[[f64; 2]], omega: f64) -> DVec2 {
     let mean = series.iter().map(|s| s[1]).sum::<f64>() / series.len() as f64;
     let value = |[t, eta]: [f64; 2]| (eta - mean) * DVec2::from_angle(omega * t);
     let integral: DVec2 = series.windows(2).map(|w| 0.5 * (w[1][0] - w[0][0]) * (value(w[0]) + value(w[1]))).sum();
     2.0 * integral / (series[series.len() - 1][0] - series[0][0])
 }
 
-/// Returns the incident and reflected amplitudes at x = 0, computed from the amplitudes at three gauges by least
-/// squares (Mansard & Funke 1980): A_j = a_i exp(i k x_j) + a_r exp(-i k x_j).
-fn separate(k: f64, x: [f64; 3], amplitudes: [DVec2; 3]) -> [DVec2; 2] {
+/// Returns the incident and reflected amplitudes at x = 0, computed from the amplitudes at gauges by least squares
+/// (Mansard & Funke 1980): A_j = a_i exp(i k x_j) + a_r exp(-i k x_j).
+pub fn separate<const N: usize>(k: f64, x: [f64; N], amplitudes: [DVec2; N]) -> [DVec2; 2] {
     let phase_factor = |x: f64| DVec2::from_angle(k * x);
     let conjugate = |z: DVec2| DVec2::new(z.x, -z.y);
     // DVec2::rotate is the product of complex numbers.
     let s: DVec2 = x.iter().map(|x| phase_factor(-2.0 * x)).sum();
     let p: DVec2 = x.iter().zip(amplitudes).map(|(x, a)| phase_factor(-x).rotate(a)).sum();
     let q: DVec2 = x.iter().zip(amplitudes).map(|(x, a)| phase_factor(*x).rotate(a)).sum();
-    let determinant = 9.0 - s.length_squared();
-    [(3.0 * p - s.rotate(q)) / determinant, (3.0 * q - conjugate(s).rotate(p)) / determinant]
+    let n = N as f64;
+    let determinant = n * n - s.length_squared();
+    [(n * p - s.rotate(q)) / determinant, (n * q - conjugate(s).rotate(p)) / determinant]
 }
 
 fn report(tank: &Tank, results: &Results) {
