@@ -1,7 +1,7 @@
 //! Flow of the Fudo waves over the bare mound, compared with the inviscid flume model. The drag on the units is
 //! proportional to the square of the velocity at their height. In the flume of the experiment, friction slows only a
 //! layer of about sqrt(nu t) = 2 mm at the bed, with the viscosity nu of water and the duration t of the flow. In the
-//! particle domain, the numerical viscosity alpha h c0 / 8 determines the thickness of this layer.
+//! particle domain, the numerical viscosity alpha h c0 / 16 determines the thickness of this layer.
 
 use serde_json::json;
 

@@ -9,8 +9,8 @@ use super::{
 
 /// Lists `numerics` settings with free slip, the default.
 fn free_slip() -> Vec<Value> {
-    // This is a thousand times the viscosity of water. `artificial` is equivalent to some 3e-2 m2/s in the dam break
-    // and 6e-3 m2/s in still water.
+    // This is a thousand times the viscosity of water. `artificial` is equivalent to some 1.5e-2 m2/s in the dam break
+    // and 3e-3 m2/s in still water.
     let viscous = |name: &str| json!({ "viscosity": name, "kinematic_viscosity_m2_s": 1e-3 });
     vec![
         json!({}),
