@@ -113,6 +113,56 @@ fn one_at_a_time_varies_each_key_against_the_base_case() {
 }
 
 #[test]
+fn random_values_give_statistics() {
+    let (folder, sweep) = sweep_of(&json!([
+        { "key": "friction[0].coefficient", "random": { "normal": { "mean": 0.5, "deviation": 0.1, "least": 0.2 } } },
+        { "key": "numerics.cfl", "values": [0.2, 0.3] },
+        { "key": "units.scatter.seed", "random": "seed" }
+    ]));
+    let mut case = tank();
+    case["units"] = json!({
+        "shape": "tetrapod", "height_m": 0.15, "mass_kg": 2.2, "material": "mortar", "count": 2, "pitch_m": 0.25,
+        "x_m": 0.25, "scatter": { "position_m": 0.01, "angle_deg": 3.0 }
+    });
+    fs::write(folder.path().join("tank.json"), case.to_string()).unwrap();
+    let mut file: Value = serde_json::from_str(&fs::read_to_string(&sweep).unwrap()).unwrap();
+    file["repetitions"] = json!(2);
+    fs::write(&sweep, file.to_string()).unwrap();
+    let out = folder.path().join("out");
+    let done = run(&sweep, &out);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let printed = String::from_utf8_lossy(&done.stdout).into_owned();
+    assert!(printed.contains("cfl=0.2: 2 runs, 4 units: mean displacement 0.000 m"), "{printed}");
+    let ensemble = fs::read_to_string(out.join("ensemble.csv")).unwrap();
+    let rows: Vec<&str> = ensemble.lines().collect();
+    assert!(
+        rows.len() == 3 && rows[1].starts_with("cfl=0.2,2,4,") && rows[2].starts_with("cfl=0.3,2,4,"),
+        "{ensemble}"
+    );
+    assert!(out.join("sweep.svg").exists());
+    // Both combinations have the same random values. The units stand at random places.
+    let read = |name: &str| -> Value {
+        let text = fs::read_to_string(out.join(name).join("case.json")).unwrap();
+        serde_json::from_str(&text).unwrap()
+    };
+    let runs: Vec<String> = fs::read_to_string(out.join("sweep.csv"))
+        .unwrap()
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').next().unwrap().to_owned())
+        .collect();
+    let cases: Vec<Value> = runs.iter().map(|run| read(run)).collect();
+    let random = |case: &Value| [case["friction"][0]["coefficient"].clone(), case["units"]["scatter"]["seed"].clone()];
+    assert!(random(&cases[0]) == random(&cases[2]) && random(&cases[1]) == random(&cases[3]), "{cases:?}");
+    assert!(random(&cases[0])[0] != random(&cases[1])[0] && random(&cases[0])[1] != random(&cases[1])[1]);
+    let summary = fs::read_to_string(out.join(&runs[0]).join("summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    let start = &summary["units"][0]["start_m"];
+    let deviation = [start[0].as_f64().unwrap() - 0.25, start[1].as_f64().unwrap() - 0.125];
+    assert!(deviation.iter().all(|along| along.abs() <= 0.01 && along.abs() > 1e-6), "{deviation:?}");
+}
+
+#[test]
 fn a_failed_run_is_listed() {
     let (folder, sweep) = sweep_of(&json!([{ "key": "numerics.cfl", "values": [0.2, 0.3] }]));
     let out = folder.path().join("out");
@@ -167,6 +217,10 @@ fn invalid_sweeps_are_refused_before_any_run_starts() {
         (json!([]), "vary: must contain at least one key"),
         (json!([{ "key": "domain.dp_m" }]), "vary[0] (domain.dp_m): must have either `values`"),
         (json!([{ "key": "friction[4].coefficient", "values": [0.1] }]), "friction has 1 entries"),
+        (
+            json!([{ "key": "domain.dp_m", "random": { "uniform": [0.04, 0.05] } }]),
+            "repetitions: (missing): must be 2 to 10000 with `random` values",
+        ),
         (json!([{ "key": "domain.dp_mm", "values": [0.1] }]), "run 1 of the sweep (dp_mm=0.1) is refused"),
         (json!([{ "key": "domain.dp_m", "values": [0.05, -1] }]), "run 2 of the sweep (dp_m=-1) is refused"),
         (json!([{ "key": "stop.duration_s", "from": 1, "to": 2, "count": 20000 }]), "must have either"),

@@ -26,6 +26,7 @@ use crate::{
         run::{RunOptions, resume, run},
     },
     sweep::{
+        ensemble::{ensembles, write_ensembles},
         member::Outcome,
         plan::{Member, Sweep},
         queue::Work,
@@ -44,7 +45,8 @@ const SUBMISSIONS: usize = 2;
 #[derive(Args)]
 pub struct SweepArguments {
     /// The sweep file, with the keys `title`, `case` and `vary`; `vary` is a list of entries such as
-    /// {"key": "friction[1].coefficient", "values": [0.3, 0.6]} or {"key": ..., "from": 0.1, "to": 0.98, "count": 9}.
+    /// {"key": "friction[1].coefficient", "values": [0.3, 0.6]}, {"key": ..., "from": 0.1, "to": 0.98, "count": 9} or, with
+    /// `repetitions`, {"key": ..., "random": {"uniform": [0.3, 0.4]}}.
     sweep: PathBuf,
     /// Folder of the results; default: runs/NAME, with the name of the sweep file.
     #[arg(long)]
@@ -107,6 +109,11 @@ impl SweepArguments {
         self.launch(&work, &program, &sweep.members)?;
         let outcomes: Vec<Outcome> = sweep.members.iter().map(|member| member.outcome(&dir)).collect();
         println!("{}", write_table(&sweep, &outcomes, &dir).map_err(CommandError::failed)?.display());
+        let ensembles = ensembles(&sweep, &outcomes);
+        if !ensembles.is_empty() {
+            println!("{}", write_ensembles(&sweep, &ensembles, &dir).map_err(CommandError::failed)?.display());
+            ensembles.iter().for_each(|ensemble| println!("{}", ensemble.in_words()));
+        }
         if let Some(chart) = write_sweep_chart(&sweep, &outcomes, &dir).map_err(CommandError::failed)? {
             println!("{}", chart.display());
         }

@@ -8,6 +8,7 @@ use super::plot::{Line, LineChart, TornadoChart, TornadoInput, standalone};
 use crate::{
     output::{OutputError, write_atomically},
     sweep::{
+        ensemble::{Ensemble, ensembles},
         key::{brief, short},
         member::Outcome,
         plan::{Combine, Sweep, Varied, in_words},
@@ -19,12 +20,14 @@ const SIZE: [f64; 2] = [720.0, 420.0];
 
 /// Writes `sweep.svg` and returns its path; `None` if there is nothing to show. The chart shows the mean displacement
 /// of the units against the first key with numeric values. If the keys vary one at a time, the chart shows for each
-/// value how much the mean displacement differs from the base case.
+/// value how much the mean displacement differs from the base case. With random values, it shows the distribution of the
+/// displacements.
 ///
 /// # Errors
 /// If the file cannot be written.
 pub fn write_sweep_chart(sweep: &Sweep, outcomes: &[Outcome], dir: &Path) -> Result<Option<PathBuf>, OutputError> {
     let chart = match sweep.combine {
+        _ if sweep.repetitions > 1 => distributions(&ensembles(sweep, outcomes), sweep).map(|chart| chart.svg()),
         Combine::All => chart(sweep, outcomes).map(|chart| chart.svg()),
         Combine::OneAtATime => tornado(sweep, outcomes).map(|chart| chart.svg()),
     };
@@ -60,6 +63,24 @@ fn chart(sweep: &Sweep, outcomes: &[Outcome]) -> Option<LineChart> {
         x_label: sweep.varied[along].key.clone(),
         y_label: "mean displacement [m]".to_owned(),
         lines,
+        size: SIZE,
+        ..LineChart::default()
+    })
+}
+
+/// Charts the share of units that moved less than a displacement, with one line for each combination.
+fn distributions(ensembles: &[Ensemble], sweep: &Sweep) -> Option<LineChart> {
+    let line = |(colour, one): (usize, &Ensemble)| {
+        let count = one.displacements.len() as f64;
+        let steps = one.displacements.iter().enumerate();
+        let points = steps.flat_map(|(k, x)| [[*x, k as f64 / count], [*x, (k + 1) as f64 / count]]).collect();
+        Line { name: one.name.clone(), points, colour, ..Line::default() }
+    };
+    (!ensembles.is_empty()).then(|| LineChart {
+        title: sweep.title.clone(),
+        x_label: "displacement [m]".to_owned(),
+        y_label: "share of units that moved less".to_owned(),
+        lines: ensembles.iter().enumerate().map(line).collect(),
         size: SIZE,
         ..LineChart::default()
     })

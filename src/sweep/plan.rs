@@ -1,20 +1,19 @@
 //! Reads a sweep file and creates the cases of its runs.
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
-use super::key::{get, set, short};
+use super::key::{get, set};
+use super::random::RandomValues;
+pub use super::values::Varied;
+use super::values::{label, repetitions};
 pub use crate::case::file::Combine;
-use crate::case::{
-    Case, CaseError, CaseErrors, Document, InputKind, difference,
-    file::{SweepFile, VaryFile},
-};
+use crate::case::{Case, CaseError, CaseErrors, Document, InputKind, difference, file::SweepFile};
 
 /// Largest number of runs in one sweep.
-const MOST_RUNS: usize = 10_000;
+pub(super) const MOST_RUNS: usize = 10_000;
 
 /// Largest size of the case files of all runs together [bytes]. A sweep keeps them in memory.
 const MOST_TEXT: usize = 128 << 20;
@@ -43,15 +42,6 @@ pub enum SweepError {
         /// Errors in the case of the run.
         errors: CaseErrors,
     },
-}
-
-/// A varied key of the case and its values.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Varied {
-    /// Path of the key, as in `friction[1].coefficient`.
-    pub key: String,
-    /// Values of the key.
-    pub values: Vec<Value>,
 }
 
 /// One run of a sweep.
@@ -84,6 +74,8 @@ pub struct Sweep {
     pub varied: Vec<Varied>,
     /// How the values are combined.
     pub combine: Combine,
+    /// Number of runs of each combination; they follow one after the other.
+    pub repetitions: usize,
     /// The runs. With [`Combine::All`], the last key varies fastest.
     pub members: Vec<Member>,
     /// The common start, if any: a run whose checkpoint is the start of all other runs.
@@ -111,8 +103,13 @@ impl Sweep {
             return Err(content(format!("case: {} is not a flume case; a sweep needs a flume case", case.display())));
         }
         let mut base = Value::Object(document.parse::<Map<String, Value>>()?);
-        let varied = file.vary.iter().enumerate().map(|(k, vary)| vary.values(k)).collect::<Result<Vec<_>, _>>();
-        let varied = varied.map_err(&content)?;
+        let repetitions = repetitions(&file).map_err(&content)?;
+        let mut random = RandomValues::new(file.seed);
+        let varied = file.vary.iter().enumerate().map(|(k, vary)| match &vary.random {
+            None => vary.values(k),
+            Some(distribution) => vary.draws(k, *distribution, &mut random, repetitions),
+        });
+        let varied = varied.collect::<Result<Vec<_>, _>>().map_err(&content)?;
         if varied.is_empty() {
             return Err(content("vary: must contain at least one key".to_owned()));
         }
@@ -127,11 +124,15 @@ impl Sweep {
         for (key, value) in &file.set {
             set(&mut base, key, value.clone()).map_err(|what| content(format!("set: {key}: {what}")))?;
         }
-        let runs = file.combine.runs(&varied).filter(|runs| *runs <= MOST_RUNS);
+        let runs = file
+            .combine
+            .combinations(&varied)
+            .and_then(|count| count.checked_mul(repetitions))
+            .filter(|runs| *runs <= MOST_RUNS);
         let runs = runs.ok_or_else(|| content(format!("vary: more than {MOST_RUNS} runs; use fewer values")))?;
         let (mut duration, mut size) = (f64::INFINITY, 0);
         let member = |number: usize| {
-            let changes = file.combine.changes(&varied, number);
+            let changes = file.combine.changes(&varied, number / repetitions, number % repetitions);
             let mut text = base.clone();
             for (one, value) in varied.iter().zip(&changes) {
                 let Some(value) = value else { continue };
@@ -164,7 +165,7 @@ impl Sweep {
         };
         let members = (0..runs).map(member).collect::<Result<Vec<_>, SweepError>>()?;
         let start = file.common_start_s.map(|until| start(&members, until, duration)).transpose().map_err(content)?;
-        Ok(Self { title: file.title, case, varied, combine: file.combine, members, start })
+        Ok(Self { title: file.title, case, varied, combine: file.combine, repetitions, members, start })
     }
 
     /// Returns the run with the number `number`, from 1; 0 gives the common start.
@@ -189,72 +190,6 @@ fn start(members: &[Member], until: f64, duration: f64) -> Result<Member, String
     Ok(Member { number: 0, name: "000_start".to_owned(), values: Vec::new(), until: Some(until), ..first.clone() })
 }
 
-impl VaryFile {
-    fn values(&self, number: usize) -> Result<Varied, String> {
-        let path = format!("vary[{number}] ({})", self.key);
-        let values = match (&self.values, self.from, self.to, self.count) {
-            (Some(values), None, None, None) if !values.is_empty() => values.clone(),
-            (None, Some(from), Some(to), Some(count)) if (2..=MOST_RUNS).contains(&count) => {
-                let step = (to - from) / (count - 1) as f64;
-                // Round to twelve decimals, so that 0.1 + 2 * 0.11 is written as 0.32.
-                let value = |k: usize| (1e12 * (from + k as f64 * step)).round() / 1e12;
-                (0..count).map(|k| json!(value(k))).collect()
-            }
-            _ => {
-                return Err(format!(
-                    "{path}: must have either `values` (a list) or `from`, `to` and `count` (at least 2)"
-                ));
-            }
-        };
-        let mut seen = HashSet::new();
-        match values.iter().find(|value| !seen.insert(value.to_string())) {
-            Some(value) => Err(format!("{path}: {} is listed twice; write each value once", in_words(value))),
-            None => Ok(Varied { key: self.key.clone(), values }),
-        }
-    }
-}
-
-impl Combine {
-    /// Returns the number of runs; `None` on overflow.
-    fn runs(self, varied: &[Varied]) -> Option<usize> {
-        let mut values = varied.iter().map(|one| one.values.len());
-        match self {
-            Self::All => values.try_fold(1, usize::checked_mul),
-            Self::OneAtATime => values.try_fold(1, usize::checked_add),
-        }
-    }
-
-    /// Returns the value of each varied key in run `number` (from 0); `None` for keys that keep the value of the base
-    /// case.
-    fn changes(self, varied: &[Varied], number: usize) -> Vec<Option<Value>> {
-        if self == Self::All {
-            return combination(varied, number).into_iter().map(Some).collect();
-        }
-        let mut changes = vec![None; varied.len()];
-        let mut alone =
-            varied.iter().enumerate().flat_map(|(key, one)| one.values.iter().map(move |value| (key, value)));
-        if let Some((key, value)) = number.checked_sub(1).and_then(|before| alone.nth(before)) {
-            changes[key] = Some(value.clone());
-        }
-        changes
-    }
-}
-
-/// Returns the combination of values in run `number` (from 0); the last key varies fastest.
-fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
-    let mut values: Vec<Value> = varied
-        .iter()
-        .rev()
-        .map(|one| {
-            let value = one.values[number % one.values.len()].clone();
-            number /= one.values.len();
-            value
-        })
-        .collect();
-    values.reverse();
-    values
-}
-
 /// Adds the changed keys to the assumptions of a run. Reports print these assumptions; the assumptions of the base case
 /// are true only for the values of the base case.
 fn note_differences(run: &mut Value, given: &Value, keys: &[&str]) {
@@ -275,14 +210,6 @@ fn note_differences(run: &mut Value, given: &Value, keys: &[&str]) {
     }
 }
 
-/// Returns the keys that a run changes, with their values, as in `coefficient=0.32 height_m=0.045`.
-fn label(varied: &[Varied], changes: &[Option<Value>]) -> String {
-    let one =
-        |(one, value): (&Varied, &Option<Value>)| Some(format!("{}={}", short(&one.key), in_words(value.as_ref()?)));
-    let words: Vec<String> = varied.iter().zip(changes).filter_map(one).collect();
-    if words.is_empty() { "as_given".to_owned() } else { words.join(" ") }
-}
-
 /// Returns a value as text without quotes; empty for null.
 pub fn in_words(value: &Value) -> String {
     match value {
@@ -301,26 +228,6 @@ fn file_name(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ranges_include_both_ends_and_have_short_decimals() {
-        let vary = VaryFile { key: "a.b".to_owned(), values: None, from: Some(0.1), to: Some(0.98), count: Some(9) };
-        let values: Vec<f64> = vary.values(0).unwrap().values.iter().map(|v| v.as_f64().unwrap()).collect();
-        assert_eq!(values, [0.1, 0.21, 0.32, 0.43, 0.54, 0.65, 0.76, 0.87, 0.98]);
-        let both = VaryFile { values: Some(vec![json!(1)]), ..vary.clone() };
-        assert!(both.values(3).unwrap_err().contains("vary[3] (a.b)"));
-        let list = |values: Value| VaryFile {
-            values: values.as_array().cloned(),
-            from: None,
-            to: None,
-            count: None,
-            ..vary.clone()
-        };
-        assert!(list(json!([0.3, 0.4, "x", [1, 2]])).values(0).is_ok());
-        for twice in [json!([0.3, 0.4, 0.3]), json!(["a", "a"]), json!([null, 1, null])] {
-            assert!(list(twice).values(0).unwrap_err().ends_with(" is listed twice; write each value once"));
-        }
-    }
 
     #[test]
     fn a_sweep_whose_cases_fill_the_memory_is_refused() {
@@ -356,19 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_key_varies_fastest() {
-        let one = |key: &str, values: &[f64]| Varied {
-            key: key.to_owned(),
-            values: values.iter().map(|v| json!(v)).collect(),
-        };
-        let varied = [one("x.a", &[1.0, 2.0]), one("b", &[3.0, 4.0, 5.0])];
-        assert_eq!(combination(&varied, 0), [json!(1.0), json!(3.0)]);
-        assert_eq!(combination(&varied, 2), [json!(1.0), json!(5.0)]);
-        assert_eq!(combination(&varied, 3), [json!(2.0), json!(3.0)]);
-        assert_eq!((Combine::All.runs(&varied), Combine::OneAtATime.runs(&varied)), (Some(6), Some(6)));
-        assert_eq!(label(&varied, &Combine::All.changes(&varied, 5)), "a=2.0 b=5.0");
-        let alone: Vec<String> = (0..6).map(|k| label(&varied, &Combine::OneAtATime.changes(&varied, k))).collect();
-        assert_eq!(alone, ["as_given", "a=1.0", "a=2.0", "b=3.0", "b=4.0", "b=5.0"]);
+    fn folder_names_are_plain() {
         assert_eq!(file_name("a=2.0 b=[1,2]"), "a=2.0_b=_1_2_");
     }
 }

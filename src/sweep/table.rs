@@ -71,7 +71,7 @@ fn table(sweep: &Sweep, outcomes: &[Outcome]) -> String {
 }
 
 /// Quotes a field for CSV.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     let special = text.contains([',', '"', '\n']);
     if special { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

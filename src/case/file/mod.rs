@@ -30,13 +30,13 @@ pub use fracture_places::{LandmarkFile, SectionFile};
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};
 pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,
-    Orientation, PlacementFile, PointFile, PoseFile, Shape, StlFile, UnitsFile,
+    Orientation, PlacementFile, PointFile, PoseFile, ScatterFile, Shape, StlFile, UnitsFile,
 };
 pub use output::{AtRestFile, FluidField, OutputFile, StopFile};
 pub use reference::{ReferenceFile, ReferenceWaveFile, ReferenceWaveKind, SeriesFile, SeriesRole};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-pub use sweep::{Combine, SweepFile, VaryFile};
+pub use sweep::{Combine, NormalFile, RandomFile, SweepFile, VaryFile};
 pub use wave_source::{ExternalWaveFile, OpenfoamFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile};
 pub use waves::{
     FlapFile, IrregularFile, PistonFile, RegularFile, SolitaryFile, SolitaryTheory, WaveFile, WavemakerFile,

@@ -53,12 +53,30 @@ pub struct UnitsFile {
     /// y of the first unit of the row [m]. By default, the row is in the middle of the flume width.
     #[serde(default)]
     pub first_y_m: Option<f64>,
+    /// Random deviations of the units of a row from their regular places.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scatter: Option<ScatterFile>,
     /// Rotation of the units about the vertical axis, for a row and for `centres_m`.
     #[serde(default)]
     pub orientation: Orientation,
     /// A unit counts as damaged if its displacement is larger than this distance [m]. Default: the height of the unit.
     #[serde(default)]
     pub damage_distance_m: Option<f64>,
+}
+
+/// Random deviations of the units of a row from their regular places, as if a person had placed the units. All
+/// deviations within the limits are equally likely.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ScatterFile {
+    /// Largest deviation along x and along y [m].
+    pub position_m: f64,
+    /// Largest rotation about the vertical axis [degrees].
+    #[serde(default)]
+    pub angle_deg: f64,
+    /// Seed of the random numbers. The same seed gives the same deviations.
+    #[serde(default)]
+    pub seed: u64,
 }
 
 /// Armour layers on a slope.

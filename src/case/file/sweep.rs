@@ -26,6 +26,13 @@ pub struct SweepFile {
     /// Rule that combines the values of different keys.
     #[serde(default)]
     pub combine: Combine,
+    /// Number of runs of each combination, each with new `random` values. Required if a key has `random` values.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 2, max = 10_000))]
+    pub repetitions: Option<usize>,
+    /// Seed of the `random` values. The same seed gives the same values.
+    #[serde(default)]
+    pub seed: u64,
     /// Simulated time [s] until which the units do not move in any run. One common run with the first value of each
     /// key computes the case up to this time. All runs start from the checkpoint of the common run. With this key,
     /// only `friction`, `stop.at_rest`, `title`, `assumptions` and `reference` may vary.
@@ -44,7 +51,7 @@ pub enum Combine {
     OneAtATime,
 }
 
-/// A key that varies, with its values: either `values`, or `from`, `to` and `count`.
+/// A key that varies, with its values: either `values`, or `from`, `to` and `count`, or `random`.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VaryFile {
@@ -60,4 +67,34 @@ pub struct VaryFile {
     /// Number of equally spaced values, including `from` and `to`.
     #[schemars(range(min = 2, max = 10_000))]
     pub count: Option<usize>,
+    /// Random values, one for each repetition. All combinations of the other keys have the same random values.
+    #[serde(default)]
+    pub random: Option<RandomFile>,
+}
+
+/// Distribution of random values.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RandomFile {
+    /// All values between the two limits are equally likely.
+    Uniform([f64; 2]),
+    /// Normal distribution, without the values outside the limits.
+    Normal(NormalFile),
+    /// A whole number for a key that is a seed, such as `units.scatter.seed`.
+    Seed,
+}
+
+/// Normal distribution.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NormalFile {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub deviation: f64,
+    /// Least value.
+    pub least: Option<f64>,
+    /// Greatest value.
+    pub most: Option<f64>,
 }

@@ -23,6 +23,7 @@ pub fn place(
         ("pitch_m", file.pitch_m.is_some()),
         ("x_m", file.x_m.is_some()),
         ("first_y_m", file.first_y_m.is_some()),
+        ("scatter", file.scatter.is_some()),
     ] {
         if written {
             check.reject(&format!("units.{key}"), "...", "left out with `centres_m`", "the centres give all positions");

@@ -30,6 +30,7 @@ pub fn place(
         ("pitch_m", file.pitch_m.is_some()),
         ("x_m", file.x_m.is_some()),
         ("first_y_m", file.first_y_m.is_some()),
+        ("scatter", file.scatter.is_some()),
         ("centres_m", file.centres_m.is_some()),
     ] {
         if written {

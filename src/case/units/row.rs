@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 
 use super::shape::{UnitKind, UnitShape};
 use super::{MAX_UNITS, UnitPose};
-use crate::case::file::{Orientation, Sides, UnitsFile};
+use crate::case::file::{Orientation, ScatterFile, Sides, UnitsFile};
 use crate::case::flume::site::Site;
 use crate::case::reading::check::{Checker, as_text, at_least, lower_limit, more_than, upper_limit};
+use crate::random::SplitMix64;
 
 /// The row that the case file describes; SI units.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +17,11 @@ pub struct Row {
     x: f64,
     first_y: Option<f64>,
     orientation: Orientation,
+    scatter: ScatterFile,
 }
+
+/// Largest rotation of a unit by `units.scatter` [degrees]. Larger rotations could let neighbours overlap.
+const LARGEST_SCATTER: f64 = 15.0;
 
 /// Validates the numbers of a row, without comparing them with the domain.
 pub fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker) -> Option<Row> {
@@ -34,12 +39,19 @@ pub fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker
         }
     }
     let (count, pitch, x) = (file.count?, file.pitch_m?, file.x_m?);
+    let scatter = file.scatter.unwrap_or(ScatterFile { position_m: 0.0, angle_deg: 0.0, seed: 0 });
+    let advice = "a few millimetres are usual in a laboratory";
+    check.number("units.scatter.position_m", scatter.position_m, at_least(0.0).up_to(100.0), "m", advice);
+    let advice = "a few degrees are usual in a laboratory";
+    check.number("units.scatter.angle_deg", scatter.angle_deg, at_least(0.0).up_to(LARGEST_SCATTER), "degrees", advice);
     if let Some(shape) = shape {
+        let least = shape.least_pitch() + 2.0 * scatter.position_m;
         let range = match shape.kind {
-            UnitKind::Cuboid { .. } => at_least(shape.least_pitch()).up_to(1000.0),
-            _ => more_than(shape.least_pitch()).up_to(1000.0),
+            UnitKind::Cuboid { .. } => at_least(least).up_to(1000.0),
+            _ => more_than(least).up_to(1000.0),
         };
         let advice = match shape.kind {
+            _ if file.scatter.is_some() => "neighbours that deviate towards each other must not overlap",
             UnitKind::Tetrapod { .. } => "units closer than 0.75 of their height overlap",
             UnitKind::Cuboid { .. } => "units closer than their edge across the flume overlap",
             _ => "units closer than their width across the flume may overlap",
@@ -49,13 +61,13 @@ pub fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker
     if !(1..=MAX_UNITS).contains(&count) {
         check.reject("units.count", count, format!("1 to {MAX_UNITS}"), "leave out `units` for a case without units");
     }
-    let row = Row { count, pitch, x, first_y: file.first_y_m, orientation: file.orientation };
+    let row = Row { count, pitch, x, first_y: file.first_y_m, orientation: file.orientation, scatter };
     (check.count() == before).then_some(row)
 }
 
 /// Places the units of the row and checks that the row fits into the domain.
 pub fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> Vec<UnitPose> {
-    let [margin, reach] = shape.reach();
+    let [margin, reach] = shape.reach().map(|reach| reach + row.scatter.position_m);
     check.number(
         "units.x_m",
         row.x,
@@ -97,9 +109,13 @@ pub fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> 
             }
         }
     }
+    let mut random = SplitMix64::new(row.scatter.seed);
+    let mut deviation = |largest: f64| largest * (2.0 * random.next_share() - 1.0);
     let place_one = |index: u32| {
+        let [dx, dy] = [row.scatter.position_m; 2].map(&mut deviation);
+        let turn = deviation(row.scatter.angle_deg.to_radians());
         let y = first_y + f64::from(index) * row.pitch;
-        UnitPose::standing(shape, [row.x, y], None, azimuth(row.orientation, index), site)
+        UnitPose::standing(shape, [row.x + dx, y + dy], None, azimuth(row.orientation, index) + turn, site)
     };
     (0..row.count).map(place_one).collect()
 }
