@@ -17,7 +17,7 @@ use crate::{
         dry_test::DryTest,
         flume::{setup::check_times, wave::incoming::particle_start},
     },
-    sweep::plan::{Sweep, in_words},
+    sweep::{plan::Sweep, values::in_words},
 };
 
 /// Full evaluations per second and core [1/s], assumed in the estimate of the run time. A full evaluation computes all

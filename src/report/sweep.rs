@@ -11,7 +11,8 @@ use crate::{
         ensemble::{Ensemble, ensembles},
         key::{brief, short},
         member::Outcome,
-        plan::{Combine, Sweep, Varied, in_words},
+        plan::{Combine, Sweep},
+        values::{Varied, in_words},
     },
 };
 

@@ -7,13 +7,9 @@ use thiserror::Error;
 
 use super::key::{get, set};
 use super::random::RandomValues;
-pub use super::values::Varied;
-use super::values::{label, repetitions};
+use super::values::{MOST_RUNS, Varied, in_words, label, repetitions};
 pub use crate::case::file::Combine;
 use crate::case::{Case, CaseError, CaseErrors, Document, InputKind, difference, file::SweepFile};
-
-/// Largest number of runs in one sweep.
-pub(super) const MOST_RUNS: usize = 10_000;
 
 /// Largest size of the case files of all runs together [bytes]. A sweep keeps them in memory.
 const MOST_TEXT: usize = 128 << 20;
@@ -207,15 +203,6 @@ fn note_differences(run: &mut Value, given: &Value, keys: &[&str]) {
         Value::Array(assumptions) => assumptions.push(sentence.into()),
         none @ Value::Null => *none = json!([sentence]),
         _ => (), // The validation of the case refuses other types.
-    }
-}
-
-/// Returns a value as text without quotes; empty for null.
-pub fn in_words(value: &Value) -> String {
-    match value {
-        Value::Null => String::new(),
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
     }
 }
 

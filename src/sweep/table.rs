@@ -2,10 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{
-    member::Outcome,
-    plan::{Sweep, in_words},
-};
+use super::{member::Outcome, plan::Sweep, values::in_words};
 use crate::output::{OutputError, write_atomically};
 
 /// Writes `sweep.csv`, one row per run; returns its path.

@@ -4,12 +4,11 @@ use std::collections::HashSet;
 
 use serde_json::{Value, json};
 
-use super::{
-    key::short,
-    plan::{MOST_RUNS, in_words},
-    random::RandomValues,
-};
+use super::{key::short, random::RandomValues};
 use crate::case::file::{Combine, RandomFile, SweepFile, VaryFile};
+
+/// Largest number of runs in one sweep.
+pub(super) const MOST_RUNS: usize = 10_000;
 
 /// A varied key of the case and its values.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,6 +125,15 @@ pub(super) fn label(varied: &[Varied], changes: &[Option<Value>]) -> String {
     let one = |(one, value): (&Varied, &Option<Value>)| Some(one.with(value.as_ref()?));
     let words: Vec<String> = varied.iter().zip(changes).filter_map(one).collect();
     if words.is_empty() { "as_given".to_owned() } else { words.join(" ") }
+}
+
+/// Returns a value as text without quotes; empty for null.
+pub fn in_words(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use breakwater::{case::file::CaseFile, sweep::plan::in_words};
+use breakwater::{case::file::CaseFile, sweep::values::in_words};
 use serde_json::Value;
 
 /// Base case: two units between periodic sides. The base cases of the three waves differ only in the wave height.
