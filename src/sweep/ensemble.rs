@@ -31,7 +31,8 @@ pub struct Ensemble {
     pub at_rest: f64,
     /// Share of damaged units [-].
     pub damage: f64,
-    /// Interval that contains the true damage ratio with a confidence of 95 % [-]: see [`interval`].
+    /// Interval that contains the true damage ratio with a confidence of 95 % [-] (Wilson 1927); each run counts as
+    /// one observation.
     pub damage_interval: [f64; 2],
 }
 
