@@ -29,6 +29,7 @@ impl Varied {
 }
 
 impl VaryFile {
+    /// Returns the listed or equally spaced values of entry `number` (from 0) of `vary`.
     pub(super) fn values(&self, number: usize) -> Result<Varied, String> {
         let path = format!("vary[{number}] ({})", self.key);
         let values = match (&self.values, self.from, self.to, self.count) {

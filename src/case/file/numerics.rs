@@ -14,8 +14,8 @@ pub struct NumericsFile {
     pub viscosity: Viscosity,
     /// Coefficient alpha of artificial viscosity [-] (equation 3). The other viscosity models ignore this key.
     pub viscosity_alpha: f64,
-    /// Coefficient beta of the quadratic part of artificial viscosity [-] (Monaghan 1992), which goes with the square of
-    /// the velocity differences. The other viscosity models ignore this key.
+    /// Coefficient beta of the quadratic part of artificial viscosity [-] (Monaghan 1992). Its stress grows with the
+    /// square of the velocity differences. The other viscosity models ignore this key.
     // Left out of the serialized case at its default, so that older cases keep their hash, as are `wall_friction`,
     // `slip_on_units` and `gap_pressure`.
     #[serde(skip_serializing_if = "is_zero")]
