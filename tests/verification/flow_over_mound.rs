@@ -32,8 +32,10 @@ const NO_SLIP: Scheme =
     Scheme { slip: "original", alpha: 0.04, beta: 0.0, friction: 0.0, sound: 10.0, domain: [36.5, 42.0] };
 /// Free slip, with a quarter of the viscosity of [`NO_SLIP`].
 const FREE_SLIP: Scheme = Scheme { slip: "free_slip", alpha: 0.01, ..NO_SLIP };
+/// The same with inviscid walls.
+const INVISCID: Scheme = Scheme { slip: "inviscid", ..FREE_SLIP };
 /// Quadratic viscosity only, and the friction of a smooth bed.
-const QUADRATIC: Scheme = Scheme { alpha: 0.0, beta: 0.3, friction: 0.005, ..FREE_SLIP };
+const QUADRATIC: Scheme = Scheme { alpha: 0.0, beta: 0.3, friction: 0.005, ..INVISCID };
 
 /// Creates the simulation of a wave of a height [m] over the mound without units.
 fn over_the_mound(scheme: Scheme, height: f64, dp: f64) -> Simulation {
@@ -99,11 +101,12 @@ fn drag_share(scheme: Scheme, height: f64, dp: f64) -> f64 {
 
 #[test]
 fn drag_over_the_mound_needs_free_slip() {
-    let [no_slip, free_slip] = [NO_SLIP, FREE_SLIP].map(|scheme| drag_share(scheme, 0.045, 0.016));
-    // Reached drag shares: 0.59 with no slip, 0.88 with free slip. The limit for free slip is the reached value minus
-    // 0.03, the difference between particle spacings of 14 and 16 mm. The drag on a unit is known to 10 %, so a run that
-    // loses 40 % of the drag is not useful.
+    let [no_slip, free_slip, inviscid] = [NO_SLIP, FREE_SLIP, INVISCID].map(|scheme| drag_share(scheme, 0.045, 0.016));
+    // Reached drag shares: 0.59 with no slip, 0.88 with free slip, 0.94 with inviscid walls. The limits for free slip and
+    // inviscid walls are the reached values minus 0.03, the difference between particle spacings of 14 and 16 mm. The
+    // drag on a unit is known to 10 %, so a run that loses 40 % of the drag is not useful.
     assert!(free_slip > 0.85 && free_slip < 1.03 && no_slip < 0.7);
+    assert!(inviscid > 0.91 && inviscid < 1.03);
 }
 
 /// Computes the three waves with each combination of slip and viscosity.
@@ -141,7 +144,8 @@ fn drag_over_the_mound_grows_with_resolution() {
 fn quadratic_viscosity_keeps_the_drag_over_the_mound() {
     for height in [0.026, 0.045, 0.064] {
         let [coarse, fine] = [0.014, 0.009].map(|dp| drag_share(QUADRATIC, height, dp));
-        // Reached: 0.97, 0.92, 0.91 at 14 mm and 1.00, 0.96, 0.95 at 9 mm. The drag on a unit is known to 10 %.
-        assert!(coarse > 0.9 && fine > coarse && fine < 1.03);
+        // Reached: 0.97, 0.94, 0.95 at 14 mm and 0.97, 0.96, 0.97 at 9 mm. The limit 0.93 is an aim; friction takes a
+        // part of the rest, because the flume model has none.
+        assert!(coarse > 0.93 && fine > coarse && fine < 1.03);
     }
 }

@@ -7,7 +7,7 @@ use super::{
     two_dimensional::in_two_dimensions,
 };
 
-/// Lists `numerics` settings with free slip, the default.
+/// Lists `numerics` settings with which water slides along walls.
 fn free_slip() -> Vec<Value> {
     // This is a thousand times the viscosity of water. `artificial` is equivalent to some 1.5e-2 m2/s in the dam break
     // and 3e-3 m2/s in still water.
@@ -22,6 +22,7 @@ fn free_slip() -> Vec<Value> {
         // This setting has the viscosity of water and sub-particle-scale turbulence.
         json!({ "viscosity": "laminar_sps" }),
         json!({ "shifting_coefficient": 2.0 }),
+        json!({ "wall_slip": "inviscid" }),
     ]
 }
 

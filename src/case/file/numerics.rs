@@ -45,7 +45,7 @@ pub struct NumericsFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_slip: Option<WallSlip>,
     /// Friction coefficient c_f of bed, walls and obstacles [-]: their stress on the water is rho / 2 c_f u^2. Only used
-    /// if `wall_slip` is `free_slip`.
+    /// if `wall_slip` is `free_slip` or `inviscid`.
     #[serde(skip_serializing_if = "is_zero")]
     pub wall_friction: f64,
     /// true: free slip at the units, too. false: boundary particles of a unit have the tangential velocity of the unit.
@@ -130,6 +130,9 @@ pub enum WallSlip {
     NoSlip,
     /// Free slip: the water slides along the wall without friction.
     FreeSlip,
+    /// Boundary particles have the velocity of the wall, and no viscosity acts between water and walls or units: the
+    /// water slides along both without friction.
+    Inviscid,
 }
 
 /// Boundary condition at bed, walls, wavemaker and units.

@@ -205,9 +205,14 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
 fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
     match (file.boundary, file.wall_slip) {
         (Boundary::Mdbc, slip) => slip.unwrap_or(WallSlip::FreeSlip),
-        (Boundary::Dbc, None | Some(WallSlip::Original)) => WallSlip::Original,
+        (Boundary::Dbc, None) => WallSlip::Original,
         (Boundary::Dbc, Some(slip)) => {
-            let slip = if slip == WallSlip::NoSlip { "no_slip" } else { "free_slip" };
+            let slip = match slip {
+                WallSlip::NoSlip => "no_slip",
+                WallSlip::FreeSlip => "free_slip",
+                WallSlip::Inviscid => "inviscid",
+                WallSlip::Original => return WallSlip::Original,
+            };
             let advice = "set numerics.boundary to \"mdbc\"";
             check.reject("numerics.wall_slip", slip, "\"original\" with \"dbc\"", advice);
             WallSlip::Original
@@ -236,7 +241,9 @@ fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
 fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
     let defaults = NumericsFile::default();
     let artificial = file.viscosity == Viscosity::Artificial;
-    let has_free_slip = file.boundary == Boundary::Mdbc && matches!(file.wall_slip, None | Some(WallSlip::FreeSlip));
+    let slip = file.wall_slip.unwrap_or(WallSlip::FreeSlip);
+    let has_free_slip = file.boundary == Boundary::Mdbc && slip == WallSlip::FreeSlip;
+    let slides = file.boundary == Boundary::Mdbc && matches!(slip, WallSlip::FreeSlip | WallSlip::Inviscid);
     let no_diffusion = file.density_diffusion == DensityDiffusion::None;
     let ignored = [
         (!artificial && file.viscosity_alpha != defaults.viscosity_alpha, "viscosity_alpha", "viscosity is laminar"),
@@ -252,7 +259,7 @@ fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
             "density_diffusion is none",
         ),
         (!file.gap_pressure && file.boundary == Boundary::Dbc, "gap_pressure", "boundary is dbc"),
-        (file.wall_friction != 0.0 && !has_free_slip, "wall_friction", "wall_slip is not free_slip"),
+        (file.wall_friction != 0.0 && !slides, "wall_friction", "wall_slip is not free_slip or inviscid"),
         (file.slip_on_units && !has_free_slip, "slip_on_units", "wall_slip is not free_slip"),
     ];
     for (_, key, reason) in ignored.iter().filter(|(is_ignored, ..)| *is_ignored) {

@@ -54,6 +54,7 @@ pub fn parameters(case: &Case) -> Parameters {
             case::WallSlip::Original => WallSlip::Original,
             case::WallSlip::NoSlip => WallSlip::NoSlip,
             case::WallSlip::FreeSlip => WallSlip::FreeSlip,
+            case::WallSlip::Inviscid => WallSlip::Inviscid,
         },
         gap_pressure: numerics.gap_pressure,
         acoustic_damping: (numerics.acoustic_damping > 0.0).then_some(damping),

@@ -22,6 +22,9 @@ pub enum WallSlip {
     /// Free slip: the normal component is mirrored as for no slip, and the tangential component equals the tangential
     /// velocity at the ghost node.
     FreeSlip,
+    /// The boundary particle has the velocity of the wall, and no viscosity acts between water and walls. The
+    /// compression of the water by the walls is then the rate at which the particles really move closer together.
+    Inviscid,
 }
 
 /// Components of the water velocity at its ghost node that a boundary particle mirrors.
@@ -55,7 +58,7 @@ impl WallSlip {
             relative.dot(normal) * normal
         };
         match (self, mirroring) {
-            (Self::Original, _) | (_, Mirroring::None) => wall,
+            (Self::Original | Self::Inviscid, _) | (_, Mirroring::None) => wall,
             (Self::NoSlip, _) => wall - relative,
             (Self::FreeSlip, Mirroring::Full) => wall + relative - 2.0 * across(),
             (Self::FreeSlip, Mirroring::Normal) => wall - across(),
