@@ -8,7 +8,7 @@ use super::{
 };
 
 /// Lists `numerics` settings with which water slides along walls.
-fn free_slip() -> Vec<Value> {
+fn sliding() -> Vec<Value> {
     // This is a thousand times the viscosity of water. `artificial` is equivalent to some 1.5e-2 m2/s in the dam break
     // and 3e-3 m2/s in still water.
     let viscous = |name: &str| json!({ "viscosity": name, "kinematic_viscosity_m2_s": 1e-3 });
@@ -60,7 +60,7 @@ fn tips(schemes: &[Value]) -> Vec<f64> {
 
 #[test]
 fn dam_break_tips_agree_for_all_schemes() {
-    let (free_slip, other_slip) = (tips(&free_slip()), tips(&other_slip()));
+    let (free_slip, other_slip) = (tips(&sliding()), tips(&other_slip()));
     let spread =
         |tips: &[f64]| tips.iter().copied().fold(f64::MIN, f64::max) - tips.iter().copied().fold(f64::MAX, f64::min);
     // Limit 0.1 m for the spread of the tips: two particle spacings. The tip is a sheet one particle thick.
@@ -79,7 +79,7 @@ fn dam_break_tips_agree_for_all_schemes() {
 #[test]
 fn still_water_stays_still_with_all_schemes() {
     let (depth, dp) = (0.4, 0.02);
-    for numerics in free_slip().into_iter().chain(other_slip()) {
+    for numerics in sliding().into_iter().chain(other_slip()) {
         let mut case = in_two_dimensions(still_tank(0.8, 0.2, depth, dp, 1.0));
         case["numerics"] = numerics.clone();
         let mut tank = simulation(&case);
