@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::grid::Grid;
 use crate::sph::parameters::Parameters;
 
-/// Data of a particle that its neighbours need, in single precision, 56 bytes.
+/// Data of a particle that its neighbours need, in single precision, 52 bytes.
 ///
 /// x is split into a bin index and an offset in the bin, so that differences keep their precision in flumes of any
 /// length. y and z are relative to the middle of the grid.
@@ -36,8 +36,6 @@ pub struct Record {
     /// Volume of the particle in the density diffusion [m3]. It is zero for boundary particles under DBC, because their
     /// density is not the density of the water.
     pub diffusive_volume: f32,
-    /// 1 if the viscosity acts between this particle and others, 0 if not: boundary particles of inviscid walls.
-    pub viscous: f32,
 }
 
 /// Splits a position [m] into the first four numbers of [`Record`]: bin along x, offset in the bin, y and z.
@@ -79,7 +77,6 @@ pub fn record(
         damping: 0.0,
         sound_speed: tait.sound_speed(density) as f32,
         diffusive_volume: if diffuses { volume } else { 0.0 },
-        viscous: 1.0,
     }
 }
 

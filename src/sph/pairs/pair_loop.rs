@@ -14,13 +14,15 @@ pub struct PairLoop {
     pub parameters: Parameters,
     bin_x: f32,
     width: f32,
+    /// Number of water particles, whose records come first.
+    pub(in crate::sph) water: usize,
 }
 
 impl PairLoop {
     /// Creates the constants for bins of length `bin_x` along x [m].
     pub fn new(parameters: Parameters, bin_x: f64) -> Self {
         let width = parameters.periodic_width.unwrap_or(0.0) as f32;
-        Self { parameters, bin_x: bin_x as f32, width }
+        Self { parameters, bin_x: bin_x as f32, width, water: 0 }
     }
 
     /// Returns the same constants with other parameters of the scheme.

@@ -73,6 +73,11 @@ impl Resistance for Turbulent {
     }
 }
 
+/// No viscosity, between water and inviscid walls.
+pub(super) struct Inviscid;
+
+impl Resistance for Inviscid {}
+
 /// Constants of the sums, in single precision.
 pub(super) struct Constants {
     kernel: Wendland,
@@ -93,8 +98,6 @@ pub(super) struct Members<L> {
     density: L,
     pressure: L,
     sound_speed: L,
-    /// 1 for members on which the viscosity acts, 0 for other members.
-    viscous: L,
     /// 1 for members on which the density diffusion acts, 0 for other members.
     pub(super) diffuses: L,
     density_gradient: [L; 3],
@@ -162,7 +165,6 @@ impl<L: Lanes> Members<L> {
             density: L::splat(constants.rho0) + excess_density,
             pressure: a(|r| r.pressure),
             sound_speed: a(|r| r.sound_speed),
-            viscous: a(|r| r.viscous),
             diffuses: L::splat(1.0),
             density_gradient: [nothing; 3],
             stress: [nothing; 6],
@@ -207,14 +209,13 @@ impl<L: Lanes> Sums<L> {
 
         let approach = approach_rate(h, v_dot_r, near.r2);
         self.fastest = self.fastest.max(approach.abs().where_positive(near.closeness));
-        let share = a.viscous * splat(b.viscous);
-        let viscous = share * R::stress(constants, approach, a, b, rho_b);
+        let viscous = R::stress(constants, approach, a, b, rho_b);
         add_to(&mut self.force, pair_stress(a.pressure, splat(b.pressure), viscous) * gv, near.r);
         if let Some(shear) = R::shear(constants, a.density, rho_b) {
-            add_to(&mut self.shear, -(share * shear) * gv, v);
+            add_to(&mut self.shear, -shear * gv, v);
         }
         if R::TURBULENT {
-            let factor = share * a.density * rho_b * gv;
+            let factor = a.density * rho_b * gv;
             let [xx, yy, zz, xy, xz, yz]: [L; 6] = std::array::from_fn(|k| a.stress[k] + splat(data_b.stress[k]));
             let along = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
             add_to(&mut self.shear, -factor, along);

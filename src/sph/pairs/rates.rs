@@ -5,14 +5,17 @@ use rayon::prelude::*;
 
 use super::gradients::NeighbourData;
 use super::pair_loop::PairLoop;
-use super::pair_sums::{Artificial, Constants, Laminar, Members, MonaghanGingold, Resistance, Sums, Turbulent};
+use super::pair_sums::{
+    Artificial, Constants, Inviscid, Laminar, Members, MonaghanGingold, Resistance, Sums, Turbulent,
+};
 use super::rate::Rate;
 use crate::sph::lanes::{Lanes, MAX_LANES, WithLanes};
 use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
 use crate::sph::neighbours::records::Record;
-use crate::sph::parameters::BoundaryCondition;
+use crate::sph::parameters::{BoundaryCondition, Parameters};
 use crate::sph::terms::density_diffusion::DensityDiffusion;
 use crate::sph::terms::viscosity::Viscosity;
+use crate::sph::terms::wall_slip::WallSlip;
 
 /// Number of neighbours in each partial sum over neighbours. Partial sums reduce rounding errors.
 const BLOCK: usize = 32;
@@ -65,45 +68,70 @@ impl WithLanes for ChunkRates<'_> {
 impl ChunkRates<'_> {
     #[inline(always)]
     fn run_viscous<L: Lanes, R: Resistance>(self) {
-        if self.pairs.parameters.diffusion.kind == DensityDiffusion::Antuono {
-            self.run_terms::<L, R, true>();
-        } else {
-            self.run_terms::<L, R, false>();
+        let Parameters { diffusion, slip, .. } = self.pairs.parameters;
+        match (diffusion.kind == DensityDiffusion::Antuono, slip == WallSlip::Inviscid) {
+            (false, false) => self.run_terms::<L, R, false, false>(),
+            (true, false) => self.run_terms::<L, R, true, false>(),
+            (false, true) => self.run_terms::<L, R, false, true>(),
+            (true, true) => self.run_terms::<L, R, true, true>(),
         }
     }
 
     #[inline(always)]
-    fn run_terms<L: Lanes, R: Resistance, const ANTUONO: bool>(self) {
+    fn run_terms<L: Lanes, R: Resistance, const ANTUONO: bool, const INVISCID_WALLS: bool>(self) {
         let constants = Constants::new(&self.pairs.parameters);
         for (cluster, neighbours) in self.chunk.clusters() {
             let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
             let rates = if cluster.crosses_sides {
-                self.cluster_rates::<L, R, ANTUONO, true>(&constants, cluster, neighbours)
+                self.cluster_rates::<L, R, ANTUONO, INVISCID_WALLS, true>(&constants, cluster, neighbours)
             } else {
-                self.cluster_rates::<L, R, ANTUONO, false>(&constants, cluster, neighbours)
+                self.cluster_rates::<L, R, ANTUONO, INVISCID_WALLS, false>(&constants, cluster, neighbours)
             };
             self.rates[members].copy_from_slice(&rates[..cluster.len as usize]);
         }
     }
 
-    /// Returns the rates of the members of a cluster. Partial sums over blocks of neighbours have a third of the
-    /// rounding error of a single sum over all neighbours.
+    /// Returns the rates of the members of a cluster. In its neighbour list, the water particles come first.
     #[inline(always)]
-    fn cluster_rates<L: Lanes, R: Resistance, const ANTUONO: bool, const PERIODIC: bool>(
+    fn cluster_rates<L: Lanes, R: Resistance, const ANTUONO: bool, const INVISCID_WALLS: bool, const PERIODIC: bool>(
         &self,
         constants: &Constants,
         cluster: &Cluster,
         neighbours: &[u32],
     ) -> [Rate; MAX_LANES] {
-        let Self { pairs, targets, records, .. } = self;
+        let Self { pairs, targets, .. } = self;
         let place = pairs.split_positions(cluster, targets);
         let data = self.data.get(self.begin..).unwrap_or_default();
         let mut a = Members::<L>::new::<R, ANTUONO>(constants, cluster, targets, data);
         if pairs.parameters.boundary == BoundaryCondition::Dynamic {
             a.diffuses = self.diffusion_factors::<L, PERIODIC>(constants, cluster, neighbours);
         }
-        let Some(&first) = neighbours.first() else { return Sums::zero().rates(constants, &a) };
         let mut sums = Sums::zero();
+        if INVISCID_WALLS {
+            let is_water = |&number: &u32| (number as usize) < pairs.water;
+            let viscous = if self.begin < pairs.water { neighbours.partition_point(is_water) } else { 0 };
+            let (viscous, inviscid) = neighbours.split_at(viscous);
+            self.add_neighbours::<L, R, ANTUONO, PERIODIC>(constants, place, &a, viscous, &mut sums);
+            self.add_neighbours::<L, Inviscid, ANTUONO, PERIODIC>(constants, place, &a, inviscid, &mut sums);
+        } else {
+            self.add_neighbours::<L, R, ANTUONO, PERIODIC>(constants, place, &a, neighbours, &mut sums);
+        }
+        sums.rates(constants, &a)
+    }
+
+    /// Adds the contributions of `neighbours` to the sums of the members `a`. Partial sums over blocks of neighbours
+    /// have a third of the rounding error of a single sum over all neighbours.
+    #[inline(always)]
+    fn add_neighbours<L: Lanes, R: Resistance, const ANTUONO: bool, const PERIODIC: bool>(
+        &self,
+        constants: &Constants,
+        place: [L; 4],
+        a: &Members<L>,
+        neighbours: &[u32],
+        sums: &mut Sums<L>,
+    ) {
+        let Self { pairs, records, .. } = self;
+        let Some(&first) = neighbours.first() else { return };
         let mut next = constants.near(pairs.difference::<L, PERIODIC>(place, &records[first as usize]));
         for (block, following) in neighbours.chunks(BLOCK).zip(neighbours[1..].chunks(BLOCK).chain([&[][..]])) {
             let mut block_sums = Sums::zero();
@@ -114,11 +142,10 @@ impl ChunkRates<'_> {
                 let b = &records[number as usize];
                 let data_b =
                     if ANTUONO || R::TURBULENT { &self.data[number as usize] } else { &NeighbourData::OF_BOUNDARY };
-                block_sums.add::<R, ANTUONO>(constants, &a, &current, b, data_b);
+                block_sums.add::<R, ANTUONO>(constants, a, &current, b, data_b);
             }
             sums.add_sums(&block_sums);
         }
-        sums.rates(constants, &a)
     }
 
     /// Returns the factor of the density diffusion under DBC for each member: 0 for a boundary particle, 0 for a water

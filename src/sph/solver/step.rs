@@ -94,6 +94,7 @@ impl Solver {
         self.units.sort(&self.grid, &boundary.position[walls.end..]);
         self.walls.first_record = water.len();
         self.units.first_record = water.len() + walls.len();
+        self.pairs.water = water.len();
         self.records.resize(water.len() + boundary.len(), Record::default());
         self.fill_water_records(State::from_water(water));
     }
@@ -160,7 +161,6 @@ impl Solver {
         let Self { grid, parameters, ghosts, ghost_velocities, records, walls, units, .. } = self;
         let (of_walls, of_units) = records[walls.first_record..].split_at_mut(boundary.walls().len());
         let diffuses = parameters.boundary == BoundaryCondition::ModifiedDynamic;
-        let viscous = if parameters.slip == WallSlip::Inviscid { 0.0 } else { 1.0 };
         let fill = |out: &mut [Record], order: &[u32], offset: usize| {
             out.par_iter_mut().zip(order).with_min_len(MIN_CHUNK).for_each(|(out, &i)| {
                 let i = offset + i as usize;
@@ -169,7 +169,6 @@ impl Solver {
                 let (wall, mirroring) = (boundary.velocity[i], boundary.mirroring[i]);
                 let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], mirroring);
                 *out = record(grid, parameters, boundary.position[i], velocity, density[i], mass, diffuses);
-                out.viscous = viscous;
                 out.add_damping(ghost.map_or(0.0, |ghost| ghost.damping));
             });
         };
