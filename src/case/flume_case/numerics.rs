@@ -177,7 +177,7 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
             file.boundary_layers
         ));
     }
-    let mirrors_velocities = wall_slip != WallSlip::Original;
+    let is_published = wall_slip == WallSlip::Original;
     Some(Numerics {
         h,
         viscosity: file.viscosity,
@@ -186,8 +186,8 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         nu: file.kinematic_viscosity_m2_s,
         density_diffusion: file.density_diffusion,
         delta: file.diffusion_delta,
-        acoustic_damping: file.acoustic_damping.unwrap_or(if mirrors_velocities { 0.5 } else { 0.0 }),
-        suction_limit: file.suction_limit.or(mirrors_velocities.then_some(1.0)),
+        acoustic_damping: file.acoustic_damping.unwrap_or(if is_published { 0.0 } else { 0.5 }),
+        suction_limit: file.suction_limit.or((!is_published).then_some(1.0)),
         shifting: file.shifting_coefficient,
         cfl: file.cfl,
         boundary: file.boundary,

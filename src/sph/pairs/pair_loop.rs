@@ -14,7 +14,7 @@ pub struct PairLoop {
     pub parameters: Parameters,
     bin_x: f32,
     width: f32,
-    /// Number of water particles, whose records come first.
+    /// Number of water particles. Their records come first, also in the neighbour lists.
     pub(in crate::sph) water: usize,
 }
 

@@ -73,7 +73,7 @@ impl Resistance for Turbulent {
     }
 }
 
-/// No viscosity, between water and inviscid walls.
+/// No viscosity: for pairs of a water particle and a particle of an inviscid wall or of a unit.
 pub(super) struct Inviscid;
 
 impl Resistance for Inviscid {}

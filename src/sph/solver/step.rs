@@ -104,6 +104,7 @@ impl Solver {
         let reach = self.reach(water, boundary);
         let Self { grid, water: w, walls, units, .. } = self;
         let mut lists = std::mem::take(&mut w.lists);
+        // Water first, because the pair loop splits the lists into water and boundary particles.
         let everything = [w.sources(), walls.sources(), units.sources()];
         lists.build(grid, &w.bins, &w.sorted, &everything, reach);
         let only_water = [Group::sources(w)];
@@ -176,8 +177,9 @@ impl Solver {
         fill(of_units, &units.bins.order, boundary.walls().len());
     }
 
-    /// Returns true if the velocities of the boundary particles follow from the water at the ghost nodes.
-    fn mirrors_velocities(&self) -> bool {
+    /// Returns true if the boundary particles need the velocity or the acoustic damping of the water at their ghost
+    /// nodes.
+    fn needs_ghost_velocities(&self) -> bool {
         self.parameters.boundary == BoundaryCondition::ModifiedDynamic && self.parameters.slip != WallSlip::Original
     }
 
@@ -186,7 +188,7 @@ impl Solver {
     pub fn boundary_densities(&mut self, boundary: &mut Boundary) {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
-            if self.mirrors_velocities() {
+            if self.needs_ghost_velocities() {
                 let Self { ghosts, ghost_velocities, grid, parameters, records, .. } = self;
                 ghost_velocities.compute(ghosts, grid, parameters, records, boundary);
             }
@@ -264,7 +266,7 @@ impl Solver {
         self.fill_water_records(State { mass: &water.mass, ..State::from_water(&half) });
         self.half = half;
         self.add_damping_to_water();
-        if self.mirrors_velocities() {
+        if self.needs_ghost_velocities() {
             // With the velocities of the start, sound waves near walls grow at Courant numbers from 0.3.
             let Self { ghosts, ghost_velocities, grid, parameters, records, .. } = self;
             ghost_velocities.update(ghosts, grid, parameters, records);
