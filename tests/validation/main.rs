@@ -12,5 +12,6 @@ mod data;
 mod floating_box;
 mod flume_bar;
 mod flume_run_up;
+mod square_cylinder;
 mod three_cubes;
 mod wall_pressure;

@@ -176,7 +176,7 @@ impl BareTank {
     /// Moves the centre of mass of the unit to `centre` [m] and removes the water inside the unit.
     pub fn hold(&mut self, unit: &ArmourUnit, centre: DVec3, rotation: DQuat) {
         let (solid, back) = (unit.solid(), rotation.inverse());
-        clear_solid(&mut self.water, MIN_DEPTH * self.solver.parameters.dp, |point| {
+        clear_solid(&mut self.water, self.solver.parameters.dp, MIN_DEPTH * self.solver.parameters.dp, |point| {
             let (nearest, distance) = solid.project(back * (point - centre));
             (rotation * nearest + centre, distance)
         });

@@ -41,6 +41,9 @@ pub(super) fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, Ri
 /// Returns the boundary particles of a unit in body axes; in two dimensions, those of a slice of the unit. If a cuboid
 /// fills the width of a periodic flume, its side faces touch its periodic images. The vectors `to_surface` of its
 /// boundary particles then never point to these faces.
+///
+/// With inviscid walls, units that are not cuboids have particles of half the spacing, because their legs are only a few
+/// spacings thick.
 pub(super) fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     let case::Domain { dp, width, sides, .. } = case.domain;
     let mut particles = match (shape.as_box(), sides) {
@@ -48,6 +51,7 @@ pub(super) fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryPart
         (Some(bounds), case::Sides::Periodic) if width - bounds.edges().y < NARROWEST_GAP * dp => {
             box_particles(&bounds.with_closed_sides(), dp, f64::INFINITY)
         }
+        (None, _) if case.numerics.wall_slip == case::WallSlip::Inviscid => particles_of(shape, 0.5 * dp),
         _ => particles_of(shape, dp),
     };
     if case.numerics.slip_on_units {
@@ -75,7 +79,7 @@ pub(super) fn clear_units(water: &mut Water, units: &Units, case: &Case) {
     for state in units.states() {
         for image in &images {
             let centre = state.position + DVec3::Y * (image * case.domain.width);
-            clear_solid(water, least, |point| {
+            clear_solid(water, case.domain.dp, least, |point| {
                 let from_centre = point - centre;
                 if from_centre.length_squared() > reach * reach {
                     return (point, f64::INFINITY);

@@ -86,22 +86,53 @@ impl Basin<'_> {
 /// such a small distance, rounding errors hide the side of the particle and the direction in which to move it.
 const ON_SURFACE: f64 = 1e-6;
 
+/// Number of points along each edge of a particle's cell at which [`clear_solid`] looks for the solid.
+const SAMPLES: u32 = 4;
+
+/// Largest relative change of a particle's mass in [`clear_solid`].
+const MOST_CHANGE: f64 = 0.2;
+
 /// Removes the water particles inside a solid or on its surface. Moves other particles outwards to the distance `least`
-/// [m] from the surface if they are nearer to it.
+/// [m] from the surface if they are nearer to it. `dp` is the particle spacing [m].
+///
+/// In general, the removed particles have more or less mass than the water that the solid displaces. The particles
+/// nearer than dp to the surface take the difference. Otherwise the buoyancy of the solid would have the same error.
 ///
 /// `locate` returns the surface point nearest to a given point and the distance between them [m], negative inside the
 /// solid.
-pub fn clear_solid(water: &mut Water, least: f64, locate: impl Fn(DVec3) -> (DVec3, f64)) {
+pub fn clear_solid(water: &mut Water, dp: f64, least: f64, locate: impl Fn(DVec3) -> (DVec3, f64)) {
     let mut keep = vec![true; water.len()];
-    for (position, keep) in water.position.iter_mut().zip(&mut keep) {
+    let (mut near, mut near_mass, mut surplus) = (Vec::new(), 0.0, 0.0);
+    for (i, (position, mass)) in water.position.iter_mut().zip(&water.mass).enumerate() {
         let (nearest, distance) = locate(*position);
-        *keep = distance > ON_SURFACE * least;
-        if *keep && distance < least {
+        keep[i] = distance > ON_SURFACE * least;
+        let removed = if keep[i] { 0.0 } else { 1.0 };
+        // Half the diagonal of a cell.
+        let is_cut = distance.abs() < 0.5 * 3f64.sqrt() * dp;
+        let displaced = if is_cut { share_inside(*position, dp, &locate) } else { removed };
+        surplus += mass * (removed - displaced);
+        if keep[i] && distance < dp {
+            near.push(i);
+            near_mass += mass;
+        }
+        if keep[i] && distance < least {
             *position = nearest + (*position - nearest) * (least / distance);
         }
     }
+    if near_mass > 0.0 {
+        let factor = 1.0 + (surplus / near_mass).clamp(-MOST_CHANGE, MOST_CHANGE);
+        near.into_iter().for_each(|i| water.mass[i] *= factor);
+    }
     water.retain(&keep);
     water.id = (0..water.len() as u32).collect();
+}
+
+/// Returns the share of a particle's cell, a cube with the edge `dp` [m], that is inside a solid [-].
+fn share_inside(centre: DVec3, dp: f64, locate: impl Fn(DVec3) -> (DVec3, f64)) -> f64 {
+    let offset = |k: u32| (f64::from(k) + 0.5) / f64::from(SAMPLES) - 0.5;
+    let point = |n: u32| DVec3::new(offset(n % SAMPLES), offset(n / SAMPLES % SAMPLES), offset(n / SAMPLES.pow(2)));
+    let inside = (0..SAMPLES.pow(3)).filter(|n| locate(centre + dp * point(*n)).1 < 0.0).count();
+    inside as f64 / f64::from(SAMPLES.pow(3))
 }
 
 #[cfg(test)]
@@ -141,9 +172,13 @@ mod tests {
             water.density.push(1000.0);
             water.mass.push(1.0);
         }
-        clear_solid(&mut water, 0.02, |p| (DVec3::X * 0.495, p.x - 0.495));
+        clear_solid(&mut water, 0.01, 0.02, |p| (DVec3::X * 0.4925, p.x - 0.4925));
         assert_eq!((water.len(), water.velocity.len(), water.density.len(), water.id.len()), (50, 50, 50, 50));
-        assert!(water.position.iter().all(|p| p.x >= 0.515 - 1e-12));
+        assert!(water.position.iter().all(|p| p.x >= 0.5125 - 1e-12));
+        // The solid ends 2.5 mm before the cell of the first particle, whose mass grows by this quarter of a cell, but
+        // at most by a fifth.
+        let total: f64 = water.mass.iter().sum();
+        assert!((water.mass[0] - 1.2).abs() < 1e-12 && (total - 50.2).abs() < 1e-12, "{:?}", water.mass);
     }
 
     #[test]
@@ -156,7 +191,7 @@ mod tests {
             ..Water::default()
         };
         // The solid has a face at x = 0. A rounding error of 1e-17 m gives the first particle a wrong direction.
-        clear_solid(&mut water, 0.02, |p| (p + DVec3::Y * 1e-17, if p.x > 0.0 { p.x } else { 1e-17 }));
+        clear_solid(&mut water, 0.01, 0.02, |p| (p + DVec3::Y * 1e-17, if p.x > 0.0 { p.x } else { 1e-17 }));
         assert_eq!(water.position, [DVec3::X]);
     }
 }

@@ -26,7 +26,7 @@ use crate::sph::{
     pairs::{gap_pressure::Gaps, gradients::Gradients, pair_loop::PairLoop, rate::Rate},
     parameters::{BoundaryCondition, Parameters},
     particles::{boundary::Boundary, water::Water},
-    terms::{density_diffusion::Diffusion, viscosity::Viscosity, wall_slip::WallSlip},
+    terms::{density_diffusion::Diffusion, shifting::Shifting, viscosity::Viscosity, wall_slip::WallSlip},
 };
 
 /// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
@@ -319,13 +319,16 @@ impl Solver {
             .for_each(|(i, (position, velocity, density, rate))| {
                 let end_velocity = *velocity + dt * (acceleration(rate) + gravity);
                 let mut moved = 0.5 * dt * (*velocity + end_velocity);
+                *density = end_density(*density, half.density[i], f64::from(rate.density), dt);
                 if let Some(shifting) = shifting {
                     let order = gradients.order(i);
-                    moved += shifting.shift(dt, end_velocity.length(), order.concentration_gradient, order.divergence);
+                    let gradient = order.concentration_gradient;
+                    let shift = shifting.shift(dt, end_velocity.length(), gradient, order.divergence);
+                    moved += shift;
+                    *density *= Shifting::density_ratio(shift, gradient);
                 }
                 *position = grid.wrap(*position + moved);
                 *velocity = end_velocity;
-                *density = end_density(*density, half.density[i], f64::from(rate.density), dt);
                 // Not `max`, which would hide NaN.
                 if *density < lowest_density {
                     *density = lowest_density;

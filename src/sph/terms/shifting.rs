@@ -5,6 +5,13 @@
 //! from dense to sparse regions of particles. A is a coefficient, h the smoothing length, v the velocity of the
 //! particle, dt the time step and C the particle concentration. Near the free surface, the sum
 //! div r = sum_b V_b r_ba . grad_a W_ab is smaller than in a full neighbourhood, and the shift decreases to zero.
+//!
+//! A shift lowers the concentration, and with it the density: otherwise the densities, which follow all other motions,
+//! would become too large, and the level of the water would rise. The sum of V_a C_a over all particles is
+//! sum_ab V_a V_b W_ab, so it changes by 2 sum_a V_a grad C_a . dr_a. Half of this change happens at the particle that
+//! moves, the other half at its neighbours. The density of the particle that moves takes both:
+//!
+//!   d rho / rho = 2 grad C . dr.
 
 use glam::DVec3;
 
@@ -35,6 +42,11 @@ impl Shifting {
         let inside = ((divergence - surface) / (full - surface)).clamp(0.0, 1.0);
         let shift = -inside * self.coefficient * self.h * speed * dt * concentration_gradient;
         shift.clamp_length_max(MAX_SHIFT * self.dp)
+    }
+
+    /// Returns the density after a shift [m] divided by the density before it [-].
+    pub fn density_ratio(shift: DVec3, concentration_gradient: DVec3) -> f64 {
+        1.0 + 2.0 * shift.dot(concentration_gradient)
     }
 }
 
