@@ -1,7 +1,7 @@
 //! A square cylinder that is towed through a closed tank at a constant speed, in two dimensions.
 //!
-//! Measured at a Reynolds number of 22,000 (Lyn et al. 1995, collected in ERCOFTAC UFR 2-02): drag coefficient 1.9 to
-//! 2.2, Strouhal number 0.13. The measured flow is turbulent and three-dimensional.
+//! At a Reynolds number of 22,000, the drag coefficient is 1.9 to 2.2 and the Strouhal number 0.13 (ERCOFTAC UFR 2-02).
+//! That flow is turbulent and three-dimensional.
 
 use breakwater::{
     geometry::axis_box::AxisBox,
@@ -13,7 +13,6 @@ use breakwater::{
             boundary::Boundary,
             fill::{Basin, clear_solid},
             obstacle::box_particles,
-            unit::MIN_DEPTH,
             water::Water,
         },
         solver::step::Solver,
@@ -78,7 +77,7 @@ fn motion(start: DVec3, time: f64) -> BodyState {
     let phase = ((time - 1.0) / 3.0).clamp(0.0, 1.0) * std::f64::consts::TAU;
     let (z, across) = (0.5 * KICK * (1.0 - phase.cos()), 0.5 * KICK * phase.sin() * std::f64::consts::TAU / 3.0);
     let mut state = BodyState::at_rest(start + DVec3::new(x, 0.0, z), DQuat::IDENTITY);
-    state.velocity = DVec3::new(SPEED.min(speed), 0.0, across);
+    state.velocity = DVec3::new(speed, 0.0, across);
     state
 }
 
@@ -105,7 +104,7 @@ fn tank(parameters: &Parameters, length: f64, start: DVec3) -> (Water, Boundary)
     let mut water = basin.fill(&parameters.tait);
     water.density.fill(parameters.tait.density(PRESSURE));
     let around = AxisBox { low: start - half, high: start + half, ..square };
-    clear_solid(&mut water, dp, MIN_DEPTH * dp, |point| around.locate(point));
+    clear_solid(&mut water, dp, |point| around.locate(point));
     (water, boundary)
 }
 
@@ -180,16 +179,19 @@ impl Flow {
 #[test]
 fn a_coarse_square_cylinder_has_too_little_drag() {
     let flow = tow(8.0, 16.0);
-    assert!((1.0..1.9).contains(&flow.drag), "{flow:?}");
+    // Reached: 1.18 so soon after the start, 1.37 after 36 sides. The limits are 15 % from the first value, to detect a
+    // change of the scheme.
+    assert!((flow.drag / 1.18 - 1.0).abs() < 0.15, "{flow:?}");
 }
 
 #[test]
 #[ignore = "45 minutes on 2 cores: \
     cargo test --release --test validation -- --ignored --nocapture square_cylinder"]
 fn drag_of_a_square_cylinder_approaches_the_measured_one() {
+    // Not yet run to its end. Trials with the same scheme: 1.76 with 12 particles, 2.10 and St = 0.131 with 16.
     let flows = [8.0, 12.0, 16.0].map(|particles| tow(particles, 36.0));
     assert!(flows.is_sorted_by(|a, b| a.drag < b.drag && a.lift < b.lift));
     let finest = &flows[2];
-    // The range of the measurements and of large-eddy simulations.
+    // The ranges of the source, the Strouhal number with 6 % more.
     assert!((1.9..2.2).contains(&finest.drag) && (0.12..0.14).contains(&finest.strouhal), "{finest:?}");
 }

@@ -22,11 +22,7 @@ struct Deviation {
 
 /// Returns the deviation for a unit on the bed in water of a depth [m].
 fn on_bed(depth: f64, dp: f64) -> Deviation {
-    deviation(&on_bed_case(depth, dp))
-}
-
-fn on_bed_case(depth: f64, dp: f64) -> Value {
-    tank_with_held_unit(LENGTH, depth, dp, DURATION)
+    deviation(&tank_with_held_unit(LENGTH, depth, dp, DURATION))
 }
 
 /// Returns the deviation for a unit held with its centre of mass at a height [m] in water of a depth [m].
@@ -34,11 +30,13 @@ fn above_bed(centre_z: f64, depth: f64, dp: f64) -> Deviation {
     above_bed_at([0.3, 0.1, 0.0], centre_z, depth, dp)
 }
 
-/// The same for a unit that is displaced from the middle of the tank by an offset, a multiple of dp [-].
+/// The same for a unit that is displaced by an offset from the middle of the tank and from its height, a multiple of dp
+/// [-].
 fn above_bed_at(offset: [f64; 3], centre_z: f64, depth: f64, dp: f64) -> Deviation {
     deviation(&above_bed_case(offset, centre_z, depth, dp))
 }
 
+/// Returns the case of [`above_bed_at`].
 fn above_bed_case(offset: [f64; 3], centre_z: f64, depth: f64, dp: f64) -> Value {
     let mut case = tank_with_held_unit(LENGTH, depth, dp, DURATION);
     let [x, y, z] = offset.map(|share| share * dp);
@@ -169,10 +167,12 @@ fn inviscid(dp: f64) -> [Deviation; 2] {
     let numerics = json!({
         "wall_slip": "inviscid", "viscosity_alpha": 0.005, "viscosity_beta": 0.3, "hold_units_s": DURATION
     });
-    [on_bed_case(0.16, dp), above_bed_case([0.3, 0.1, 0.0], 0.09, 0.18, dp)].map(|mut case| {
-        case["numerics"] = numerics.clone();
-        deviation(&case)
-    })
+    [tank_with_held_unit(LENGTH, 0.16, dp, DURATION), above_bed_case([0.3, 0.1, 0.0], 0.09, 0.18, dp)].map(
+        |mut case| {
+            case["numerics"] = numerics.clone();
+            deviation(&case)
+        },
+    )
 }
 
 #[test]

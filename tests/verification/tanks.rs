@@ -10,7 +10,6 @@ use breakwater::simulation::flume::{Simulation, step::PreparedStep};
 use breakwater::sph::particles::bed::{Across, Outline, outline_particles};
 use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::particles::fill::{Basin, clear_solid};
-use breakwater::sph::particles::unit::MIN_DEPTH;
 use breakwater::sph::particles::water::Water;
 use breakwater::sph::{
     lanes::InstructionSet,
@@ -176,7 +175,7 @@ impl BareTank {
     /// Moves the centre of mass of the unit to `centre` [m] and removes the water inside the unit.
     pub fn hold(&mut self, unit: &ArmourUnit, centre: DVec3, rotation: DQuat) {
         let (solid, back) = (unit.solid(), rotation.inverse());
-        clear_solid(&mut self.water, self.solver.parameters.dp, MIN_DEPTH * self.solver.parameters.dp, |point| {
+        clear_solid(&mut self.water, self.solver.parameters.dp, |point| {
             let (nearest, distance) = solid.project(back * (point - centre));
             (rotation * nearest + centre, distance)
         });

@@ -28,7 +28,6 @@ use crate::{
             boundary::{Boundary, BoundaryParticle},
             fill::{Basin, clear_solid},
             obstacle::{box_particles, cover},
-            unit::MIN_DEPTH,
             water::Water,
         },
         solver::backend::DeviceError,
@@ -162,7 +161,7 @@ impl Simulation {
         );
         let mut water = fill(&case, &across, flume.as_deref(), start);
         for obstacle in &case.domain.obstacles {
-            clear_solid(&mut water, case.domain.dp, MIN_DEPTH * case.domain.dp, |point| obstacle.locate(point));
+            clear_solid(&mut water, case.domain.dp, |point| obstacle.locate(point));
         }
         if let Some(units) = &units {
             clear_units(&mut water, units, &case);

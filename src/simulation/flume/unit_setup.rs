@@ -13,11 +13,7 @@ use crate::{
     rigid::{Load, RigidError, RigidWorld},
     sph::{
         particles::{
-            boundary::BoundaryParticle,
-            fill::clear_solid,
-            obstacle::box_particles,
-            unit::{MIN_DEPTH, unit_particles},
-            water::Water,
+            boundary::BoundaryParticle, fill::clear_solid, obstacle::box_particles, unit::unit_particles, water::Water,
         },
         terms::wall_slip::Mirroring,
     },
@@ -73,13 +69,14 @@ pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
 /// Removes the water particles inside the units and their periodic images. Moves other particles outwards if they are
 /// too near to the surface of a unit.
 pub(super) fn clear_units(water: &mut Water, units: &Units, case: &Case) {
-    let (solid, least) = (units.shape.solid(), MIN_DEPTH * case.domain.dp);
-    let reach = solid.bounds().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max) * 2.0 + least;
+    let solid = units.shape.solid();
+    let reach =
+        solid.bounds().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max) * 2.0 + case.domain.dp;
     let images = if case.domain.sides == case::Sides::Periodic { vec![-1.0, 0.0, 1.0] } else { vec![0.0] };
     for state in units.states() {
         for image in &images {
             let centre = state.position + DVec3::Y * (image * case.domain.width);
-            clear_solid(water, case.domain.dp, least, |point| {
+            clear_solid(water, case.domain.dp, |point| {
                 let from_centre = point - centre;
                 if from_centre.length_squared() > reach * reach {
                     return (point, f64::INFINITY);
