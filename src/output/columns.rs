@@ -65,8 +65,8 @@ pub const DRY_ENERGY: [&str; 7] =
     ["time_s", "slope_deg", "kinetic_j", "potential_j", "elastic_j", "friction_j", "damping_j"];
 
 /// `energy.csv` of a flume run: energy of the water and of the units. `from_*` is the energy that the water received
-/// since the start: from bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion, and
-/// from damping and relaxation zones. Negative values are energy that the water lost.
+/// since the start: from bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion and
+/// particle shifting, and from damping and relaxation zones. Negative values are energy that the water lost.
 pub const ENERGY: [&str; 10] = [
     "time_s",
     "kinetic_j",

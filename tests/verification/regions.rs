@@ -16,7 +16,6 @@ fn still_case(dp: f64, fine: &[[f64; 2]], duration: f64) -> Value {
         "flume": { "bed_m": [[0.0, 0.0], [10.0, 0.0]], "still_water_level_m": DEPTH },
         "domain": { "x_m": [0.0, 3.0], "sides": "two_dimensional", "top_z_m": 0.5, "dp_m": dp,
                     "fine_x_m": fine },
-        "numerics": { "cfl": 0.4, "wall_slip": "original" },
         "fluid": { "sound_speed_factor": 10.0 },
         "wave": { "kind": "none" },
         "stop": { "duration_s": duration }
@@ -110,9 +109,11 @@ fn still_water(dp: f64, fine: &[[f64; 2]], duration: f64, moved: impl Fn(f64) ->
     Errors { rms, pressure }
 }
 
-/// Checks that still water is as calm as with 0.01 m everywhere: rms speed 0.26 %, pressure error 0.66 % (after 10 s).
-fn assert_still(Errors { rms, pressure }: &Errors) {
-    assert!(*rms < 0.0025 && *pressure < 0.01);
+/// Checks that still water is as calm as with the spacing `dp` [m] everywhere. 20 % for the rms speed is the scatter of
+/// such tanks.
+fn assert_still(Errors { rms, pressure }: &Errors, dp: f64, duration: f64) {
+    let plain = still_water(dp, &[], duration, fixed);
+    assert!(*rms < 1.2 * plain.rms && *pressure < 0.01);
 }
 
 /// No end of the fine water moves.
@@ -125,14 +126,12 @@ fn still_water_stays_still_at_interfaces() {
     let dp = 0.01;
     let tank = simulation(&still_case(dp, &[[1.0, 2.0]], 1.0));
     assert_eq!(tank.regions().map(|region| region.case.domain.dp).collect::<Vec<_>>(), [dp, 2.0 * dp, 2.0 * dp]);
-    assert_still(&still_water(dp, &[[1.0, 2.0]], 2.5, fixed));
+    assert_still(&still_water(dp, &[[1.0, 2.0]], 2.5, fixed), dp, 2.5);
 }
 
 #[test]
 fn still_water_stays_still_with_three_spacings() {
-    let Errors { rms, pressure } = still_water(0.01, &[[1.2, 1.8], [0.72, 2.28]], 2.5, fixed);
-    // A tank with 0.04 m everywhere has a rms speed of 0.35 %.
-    assert!(rms < 0.005 && pressure < 0.01);
+    assert_still(&still_water(0.01, &[[1.2, 1.8], [0.72, 2.28]], 2.5, fixed), 0.04, 2.5);
 }
 
 #[test]
@@ -142,7 +141,7 @@ fn still_water_stays_still_when_the_fine_water_moves() {
         let moves = (10.0 * (time - 1.0)).floor().clamp(0.0, 8.0);
         [0.04 * moves, 0.08 * moves]
     };
-    assert_still(&still_water(0.01, &[[1.0, 2.0]], 2.5, moved));
+    assert_still(&still_water(0.01, &[[1.0, 2.0]], 2.5, moved), 0.01, 2.5);
 }
 
 /// The fine water can move away from the places where the units were at the start, and the units can move through its
@@ -183,7 +182,7 @@ fn fine_water_follows_units_past_its_former_ends() {
 #[test]
 #[ignore = "takes five minutes"]
 fn still_water_stays_still_for_ten_seconds() {
-    assert_still(&still_water(0.005, &[[1.0, 2.0]], 10.0, fixed));
+    assert_still(&still_water(0.005, &[[1.0, 2.0]], 10.0, fixed), 0.005, 10.0);
 }
 
 /// Runs a solitary wave through an empty domain; returns its largest elevation at the gauges [m], and times [s] and

@@ -92,9 +92,10 @@ fn run(tank: &Tank) -> Results {
     let (mut balance, mut energies) = (Balance::default(), Vec::new());
     let middle = 5.0 * tank.dp;
     run_until(&mut simulation, end, |now| {
-        if now.steps.is_multiple_of(20) {
+        if now.steps.is_multiple_of(5) {
             balance.add(now.time, now.powers().unwrap());
-            energies.push([now.energy().total(), now.statistics.balance.zones]);
+            let of_surfaces = &now.statistics.balance;
+            energies.push([now.energy().total(), of_surfaces.zones, of_surfaces.friction]);
         }
         if now.time >= first && now.steps.is_multiple_of(4) {
             let time = now.time;
@@ -109,7 +110,7 @@ fn run(tank: &Tank) -> Results {
     });
     let [incident, reflected] = separate(tank.wave.wavenumber_per_m(), tank.gauges, amplitudes);
     let [start, last] = [energies[0], energies[energies.len() - 1]];
-    let explained = balance.boundary + balance.viscosity + balance.diffusion + last[1];
+    let explained = balance.boundary + balance.viscosity + balance.diffusion + last[1] + last[2];
     Results {
         incident: 2.0 * incident.length(),
         phase: incident.to_angle(),

@@ -192,21 +192,25 @@ fn assert_nothing_moves_over_the_mound(x: [f64; 2], end: f64) {
         units.states().iter().zip(&units.start).map(|(now, start)| (now.position - start.position).length());
     let furthest = displacements.fold(0.0, f64::max);
     let largest = pressure.largest();
+    let rms = f64::sqrt(2.0 * kinetic_energy.late / mass / (GRAVITY * deepest));
     println!(
         "mound: {} particles, {end} s; units moved {:.4} mm (across the ground {:.4?} mm), pressure within {:.2} %, \
-         kinetic energy {:.1e} to {:.1e} J",
+         kinetic energy {:.1e} to {:.1e} J, rms speed {:.4} of sqrt(g d)",
         flume.water.len(),
         1e3 * furthest,
         units.displacements().iter().map(|d| 1e3 * d).collect::<Vec<_>>(),
         100.0 * largest,
         kinetic_energy.early,
-        kinetic_energy.late
+        kinetic_energy.late,
+        rms
     );
     // Limit 0.1 mm: about a thousandth of the damage distance. The weight of a unit presses it 0.03 mm into the bed.
     assert!(furthest < 1e-4);
     // Limit 1 % for the pressure error: a tenth of the hydrostatic pressure rise over a particle spacing.
     assert!(largest < 0.01);
-    assert!(kinetic_energy.late < 0.5 * kinetic_energy.early);
+    // The motion of the start decays slowly, because the water has little viscosity: it must not grow, and must be as
+    // small as in a tank (limit 0.5 %, see `still_water_stays_still_with_all_schemes`).
+    assert!(kinetic_energy.late < kinetic_energy.early && rms < 0.005);
     assert!((flume.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);
 }
 

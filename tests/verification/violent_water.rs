@@ -130,7 +130,8 @@ fn a_jet_presses_on_a_plate_with_its_momentum() {
     assert!((force - 1.0).abs() < 0.03 && (mean / stagnation - 1.0).abs() < 0.05 && rms < 0.1 * mean);
 }
 
-/// A round drop hits a plate. The plate takes the momentum of the drop without a rebound, and the energy never grows.
+/// A round drop hits a plate. The plate takes the momentum of the drop without a rebound, and gives it no energy. A wall
+/// stores energy for a short time, because the pressure of its particles does work on the water that approaches.
 #[test]
 fn a_drop_leaves_its_momentum_on_a_plate() {
     let (speed, radius, gap, dp) = (1.0, 0.1, 0.1, 0.02);
@@ -139,25 +140,24 @@ fn a_drop_leaves_its_momentum_on_a_plate() {
     let keep: Vec<bool> = tank.water.position.iter().map(inside).collect();
     tank.water.retain(&keep);
     throw_down(&mut tank, gap, speed);
-    let (mut lowest, mut rise, mut start) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+    let (mut start, mut highest) = (None, f64::NEG_INFINITY);
     let (mut rebound, mut left) = (f64::NEG_INFINITY, 0.0);
     run_until(&mut tank, 0.6, |now| {
         let energy = now.energy().total();
-        start = start.max(energy);
-        rise = rise.max(energy - lowest);
-        lowest = lowest.min(energy);
+        start.get_or_insert(energy);
+        highest = highest.max(energy);
         let [mass, momentum] = mass_and_momentum(now);
         left = momentum / (mass * speed);
         rebound = rebound.max(left);
     });
+    let rise = highest / start.unwrap() - 1.0;
     println!(
-        "drop: upward momentum at most {rebound:.4} of m U, {left:.4} left after 0.6 s; largest rise of the \
-         energy {:.1e}",
-        rise / start
+        "drop: upward momentum at most {rebound:.4} of m U, {left:.4} left after 0.6 s; highest energy {rise:+.1e} of \
+         the start",
     );
     // Limits: 1 % for a rebound; 5 % left, because the thin spreading water still sinks; energy 1e-4 of the start, the
     // error of the time integration.
-    assert!(rebound < 0.01 && left.abs() < 0.05 && rise < 1e-4 * start);
+    assert!(rebound < 0.01 && left.abs() < 0.05 && rise < 1e-4);
 }
 
 /// A sheet of water slides on a dry bed without friction. The walls must not give energy to the water.
@@ -176,20 +176,20 @@ fn thin_sheets_on_a_dry_bed_gain_no_energy() {
             "stop": { "duration_s": 2.0 }
         }));
         tank.water.velocity.fill(DVec3::X * speed);
-        let (mut start, mut end, mut lowest, mut rise) = (0.0_f64, 0.0, f64::INFINITY, 0.0_f64);
+        let (mut start, mut end, mut highest) = (None, 0.0, f64::NEG_INFINITY);
         run_until(&mut tank, 2.0, |now| {
             end = now.energy().total();
-            start = start.max(end);
-            rise = rise.max(end - lowest);
-            lowest = lowest.min(end);
+            start.get_or_insert(end);
+            highest = highest.max(end);
         });
+        let start = start.unwrap();
+        let rise = highest / start - 1.0;
         println!(
-            "sheet of {layers} layers: energy after 2 s {:.1} % of the start, largest rise {:.2e}",
-            100.0 * end / start,
-            rise / start
+            "sheet of {layers} layers: energy after 2 s {:.1} % of the start, highest energy {rise:+.2e} of the start",
+            100.0 * end / start
         );
         // Limit 0.5 % of the start: a tenth of the energy that walls gave to thin water in an earlier version. Reached:
         // 0.05 %.
-        assert!(rise < 5e-3 * start);
+        assert!(rise < 5e-3);
     }
 }

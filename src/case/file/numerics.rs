@@ -3,23 +3,26 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Options and constants of the SPH scheme. Defaults and equation numbers are those of Mitsui et al. (2023), except
-/// where noted.
+/// Options and constants of the SPH scheme. Equation numbers are those of Mitsui et al. (2023), and so are defaults that
+/// do not depend on the scheme, except where noted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct NumericsFile {
+    /// Set of defaults for the keys that say so.
+    pub scheme: Scheme,
     /// Smoothing factor h / (sqrt(3) dp) [-], with the smoothing length h and the particle spacing dp.
     pub smoothing_factor: f64,
     /// Viscosity model.
     pub viscosity: Viscosity,
-    /// Coefficient alpha of artificial viscosity [-] (equation 3). The other viscosity models ignore this key.
-    pub viscosity_alpha: f64,
+    /// Coefficient alpha of artificial viscosity [-] (equation 3). Default: 0.005; scheme `mitsui_2023`: 0.04. The other
+    /// viscosity models ignore this key.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscosity_alpha: Option<f64>,
     /// Coefficient beta of the quadratic part of artificial viscosity [-] (Monaghan 1992). Its stress grows with the
-    /// square of the velocity differences. The other viscosity models ignore this key.
-    // Left out of the serialized case at its default, so that older cases keep their hash, as are `wall_friction`,
-    // `slip_on_units` and `gap_pressure`.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub viscosity_beta: f64,
+    /// square of the velocity differences. Default: 0.3; scheme `mitsui_2023`: 0. The other viscosity models ignore
+    /// this key.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscosity_beta: Option<f64>,
     /// Kinematic viscosity nu of the laminar models [m2/s]. Artificial viscosity ignores this key.
     pub kinematic_viscosity_m2_s: f64,
     /// Form of the density diffusion, which smooths numerical noise in the density.
@@ -34,27 +37,25 @@ pub struct NumericsFile {
     /// no limit if the slip condition of the walls is `original`, as in Mitsui et al.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub suction_limit: Option<f64>,
-    /// Coefficient A of particle shifting [-]: 0 for no shifting. A usual value is 2.
-    pub shifting_coefficient: f64,
+    /// Coefficient A of particle shifting [-]: 0 for no shifting. Default: 2; scheme `mitsui_2023`: 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shifting_coefficient: Option<f64>,
     /// Courant number C, which limits the time step [-].
     pub cfl: f64,
     /// Boundary condition at bed, walls, wavemaker and units.
     pub boundary: Boundary,
-    /// Velocity condition at bed and walls. Default: `free_slip` if `boundary` is `mdbc`, `original` if `boundary` is
-    /// `dbc`.
+    /// Velocity condition at bed and walls. Default: `inviscid`; scheme `mitsui_2023`, or `boundary` = `dbc`: `original`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_slip: Option<WallSlip>,
     /// Friction coefficient c_f of bed, walls and obstacles [-]: their stress on the water is rho / 2 c_f u^2. Only used
-    /// if `wall_slip` is `free_slip` or `inviscid`.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub wall_friction: f64,
+    /// if `wall_slip` is `free_slip` or `inviscid`. Default: 0.003, as for smooth walls.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall_friction: Option<f64>,
     /// true: free slip at the units, too. false: boundary particles of a unit have the tangential velocity of the unit.
     /// Only used if `wall_slip` is `free_slip`.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub slip_on_units: bool,
     /// true: water pressure also acts on a unit in gaps that are too narrow for water particles. false: only water
     /// particles act on units, probably as in the runs of Mitsui et al. Has an effect only with `mdbc`.
-    #[serde(skip_serializing_if = "Clone::clone")]
     pub gap_pressure: bool,
     /// Number of particle layers in walls and bed.
     pub boundary_layers: u32,
@@ -65,20 +66,21 @@ pub struct NumericsFile {
 impl Default for NumericsFile {
     fn default() -> Self {
         Self {
+            scheme: Scheme::LowDissipation,
             smoothing_factor: 1.2,
             viscosity: Viscosity::Artificial,
-            viscosity_alpha: 0.04,
-            viscosity_beta: 0.0,
+            viscosity_alpha: None,
+            viscosity_beta: None,
             kinematic_viscosity_m2_s: 1e-6,
             density_diffusion: DensityDiffusion::Fourtakas,
             diffusion_delta: 0.1,
             acoustic_damping: None,
             suction_limit: None,
-            shifting_coefficient: 0.0,
+            shifting_coefficient: None,
             cfl: 0.4,
             boundary: Boundary::Mdbc,
             wall_slip: None,
-            wall_friction: 0.0,
+            wall_friction: None,
             slip_on_units: false,
             gap_pressure: true,
             boundary_layers: 3,
@@ -87,9 +89,16 @@ impl Default for NumericsFile {
     }
 }
 
-/// Returns true for zero.
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
+/// Set of defaults of the SPH scheme.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Scheme {
+    /// Little viscosity, mainly quadratic, and none at walls and units, so that forces on units grow with the square of
+    /// the velocity.
+    LowDissipation,
+    /// The scheme of Mitsui et al. (2023): linear artificial viscosity, also at walls and units.
+    #[serde(rename = "mitsui_2023")]
+    Mitsui2023,
 }
 
 /// Viscosity model.

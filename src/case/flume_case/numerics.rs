@@ -1,6 +1,6 @@
 //! Validates the properties of the water and the settings of the SPH scheme.
 
-use crate::case::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Viscosity, WallSlip};
+use crate::case::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Scheme, Viscosity, WallSlip};
 use crate::case::flume::domain::{Domain, Water};
 use crate::case::reading::check::{Checker, at_least, upper_limit};
 
@@ -65,6 +65,11 @@ const SOUND_FACTOR_OF_WAVES: f64 = 15.0;
 /// the largest speed of its front, 2 sqrt(g d) (Ritter 1892).
 const SOUND_FACTOR_OF_BLOCKS: f64 = 20.0;
 
+/// Default friction coefficient of walls along which the water slides [-]. On a smooth plate, the local coefficient is
+/// 0.0021 (laminar, Blasius: 0.664 / sqrt(Re)) to 0.0059 (turbulent, Prandtl: 0.059 Re^-1/5) at Re = 1e5, and 0.0037
+/// (turbulent) at Re = 1e6.
+const SMOOTH: f64 = 0.003;
+
 /// Validates the constants of the water. The speed of sound follows from the largest initial depth in the `domain`.
 pub fn validate_fluid(file: &FluidFile, domain: Option<&Domain>, check: &mut Checker) -> Option<Fluid> {
     let before = check.count();
@@ -104,6 +109,13 @@ pub fn validate_fluid(file: &FluidFile, domain: Option<&Domain>, check: &mut Che
 /// of `hold_units_s` [s].
 pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check: &mut Checker) -> Option<Numerics> {
     let before = check.count();
+    let (alpha, beta, shifting) = match file.scheme {
+        Scheme::LowDissipation => (0.005, 0.3, 2.0),
+        Scheme::Mitsui2023 => (0.04, 0.0, 0.0),
+    };
+    let alpha = file.viscosity_alpha.unwrap_or(alpha);
+    let beta = file.viscosity_beta.unwrap_or(beta);
+    let shifting = file.shifting_coefficient.unwrap_or(shifting);
     check.number(
         "numerics.smoothing_factor",
         file.smoothing_factor,
@@ -113,12 +125,12 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
     );
     check.number(
         "numerics.viscosity_alpha",
-        file.viscosity_alpha,
+        alpha,
         at_least(0.0).up_to(1.0),
         "",
-        "0.01 to 0.1 is usual",
+        "0.005 hardly changes the force on a unit; 0.01 to 0.1 is usual elsewhere",
     );
-    check.number("numerics.viscosity_beta", file.viscosity_beta, at_least(0.0).up_to(10.0), "", "0 for none");
+    check.number("numerics.viscosity_beta", beta, at_least(0.0).up_to(10.0), "", "0 for none");
     check.number(
         "numerics.kinematic_viscosity_m2_s",
         file.kinematic_viscosity_m2_s,
@@ -142,18 +154,20 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
     );
     check.number(
         "numerics.shifting_coefficient",
-        file.shifting_coefficient,
+        shifting,
         at_least(0.0).up_to(10.0),
         "",
         "0 for none; 2 is usual",
     );
     let wall_slip = validate_slip(file, check);
-    check.number("numerics.wall_friction", file.wall_friction, at_least(0.0).up_to(0.5), "", "smooth: 0.003 to 0.005");
+    let slides = matches!(wall_slip, WallSlip::FreeSlip | WallSlip::Inviscid);
+    let wall_friction = file.wall_friction.unwrap_or(if slides { SMOOTH } else { 0.0 });
+    check.number("numerics.wall_friction", wall_friction, at_least(0.0).up_to(0.5), "", "smooth: 0.002 to 0.006");
     check.number("numerics.diffusion_delta", file.diffusion_delta, at_least(0.0).up_to(1.0), "", "0.1 is usual");
     let advice = "0.4 is usual; 0.2 is the default of DualSPHysics";
     check.number("numerics.cfl", file.cfl, at_least(0.001).up_to(0.5), "", advice);
     refuse_unstable_diffusion(file, check);
-    warn_of_ignored_constants(file, check);
+    warn_of_ignored_constants(file, wall_slip, check);
     if !(1..=10).contains(&file.boundary_layers) {
         check.reject("numerics.boundary_layers", file.boundary_layers, "1 to 10", "3 layers are usual");
     }
@@ -181,18 +195,18 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
     Some(Numerics {
         h,
         viscosity: file.viscosity,
-        alpha: file.viscosity_alpha,
-        beta: file.viscosity_beta,
+        alpha,
+        beta,
         nu: file.kinematic_viscosity_m2_s,
         density_diffusion: file.density_diffusion,
         delta: file.diffusion_delta,
         acoustic_damping: file.acoustic_damping.unwrap_or(if is_published { 0.0 } else { 0.5 }),
         suction_limit: file.suction_limit.or((!is_published).then_some(1.0)),
-        shifting: file.shifting_coefficient,
+        shifting,
         cfl: file.cfl,
         boundary: file.boundary,
         wall_slip,
-        wall_friction: file.wall_friction,
+        wall_friction,
         slip_on_units: file.slip_on_units,
         gap_pressure: file.gap_pressure,
         boundary_layers: file.boundary_layers as usize,
@@ -200,11 +214,13 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
     })
 }
 
-/// Returns the velocity condition at walls. The default with mDBC is free slip, because the viscosity of the scheme
-/// makes boundary layers much thicker than in real water. With such layers, long waves lose height and speed.
+/// Returns the velocity condition at walls. By default, water slides along them, because the viscosity of the scheme
+/// would make boundary layers much thicker than in real water. With such layers, long waves lose height and speed.
 fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
     match (file.boundary, file.wall_slip) {
-        (Boundary::Mdbc, slip) => slip.unwrap_or(WallSlip::FreeSlip),
+        (Boundary::Mdbc, Some(slip)) => slip,
+        (Boundary::Mdbc, None) if file.scheme == Scheme::LowDissipation => WallSlip::Inviscid,
+        (Boundary::Mdbc, None) => WallSlip::Original,
         (Boundary::Dbc, None) => WallSlip::Original,
         (Boundary::Dbc, Some(slip)) => {
             let slip = match slip {
@@ -238,16 +254,14 @@ fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
 }
 
 /// Warns of constants that the user has changed from their defaults but that the chosen scheme ignores.
-fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
+fn warn_of_ignored_constants(file: &NumericsFile, slip: WallSlip, check: &mut Checker) {
     let defaults = NumericsFile::default();
     let artificial = file.viscosity == Viscosity::Artificial;
-    let slip = file.wall_slip.unwrap_or(WallSlip::FreeSlip);
-    let has_free_slip = file.boundary == Boundary::Mdbc && slip == WallSlip::FreeSlip;
-    let slides = file.boundary == Boundary::Mdbc && matches!(slip, WallSlip::FreeSlip | WallSlip::Inviscid);
+    let slides = matches!(slip, WallSlip::FreeSlip | WallSlip::Inviscid);
     let no_diffusion = file.density_diffusion == DensityDiffusion::None;
     let ignored = [
-        (!artificial && file.viscosity_alpha != defaults.viscosity_alpha, "viscosity_alpha", "viscosity is laminar"),
-        (!artificial && file.viscosity_beta != 0.0, "viscosity_beta", "viscosity is laminar"),
+        (!artificial && file.viscosity_alpha.is_some(), "viscosity_alpha", "viscosity is laminar"),
+        (!artificial && file.viscosity_beta.is_some(), "viscosity_beta", "viscosity is laminar"),
         (
             artificial && file.kinematic_viscosity_m2_s != defaults.kinematic_viscosity_m2_s,
             "kinematic_viscosity_m2_s",
@@ -259,8 +273,8 @@ fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
             "density_diffusion is none",
         ),
         (!file.gap_pressure && file.boundary == Boundary::Dbc, "gap_pressure", "boundary is dbc"),
-        (file.wall_friction != 0.0 && !slides, "wall_friction", "wall_slip is not free_slip or inviscid"),
-        (file.slip_on_units && !has_free_slip, "slip_on_units", "wall_slip is not free_slip"),
+        (file.wall_friction.is_some() && !slides, "wall_friction", "wall_slip is not free_slip or inviscid"),
+        (file.slip_on_units && slip != WallSlip::FreeSlip, "slip_on_units", "wall_slip is not free_slip"),
     ];
     for (_, key, reason) in ignored.iter().filter(|(is_ignored, ..)| *is_ignored) {
         check.warn(format!("numerics.{key} has no effect: numerics.{reason}"));
@@ -290,7 +304,7 @@ mod tests {
         assert!(accepted && found[0].starts_with("numerics.kinematic_viscosity_m2_s has no effect"), "{found:?}");
         let (accepted, found) = warnings(|file| {
             file.viscosity = Viscosity::LaminarSps;
-            file.viscosity_alpha = 0.1;
+            file.viscosity_alpha = Some(0.1);
         });
         assert!(accepted && found[0].starts_with("numerics.viscosity_alpha has no effect"), "{found:?}");
         let (accepted, found) = warnings(|file| {
@@ -301,7 +315,8 @@ mod tests {
         let (accepted, found) =
             warnings(|file| (file.slip_on_units, file.wall_slip) = (true, Some(WallSlip::Original)));
         assert!(accepted && found[0].starts_with("numerics.slip_on_units has no effect"), "{found:?}");
-        assert_eq!(warnings(|file| file.slip_on_units = true), (true, vec![]));
+        let slides = |file: &mut NumericsFile| (file.slip_on_units, file.wall_slip) = (true, Some(WallSlip::FreeSlip));
+        assert_eq!(warnings(slides), (true, vec![]));
         let (accepted, found) = warnings(|file| {
             file.viscosity = Viscosity::Laminar;
             file.kinematic_viscosity_m2_s = 0.0;

@@ -72,12 +72,4 @@ pub(super) fn validate_contents(case: &Case, check: &mut Checker) {
     if numerics.boundary == Boundary::Dbc {
         check.reject("numerics.boundary", "dbc", "\"mdbc\" with domain.fine_x_m", "leave the key out");
     }
-    if numerics.shifting > 0.0 {
-        check.reject(
-            "numerics.shifting_coefficient",
-            as_text(numerics.shifting),
-            "0 with domain.fine_x_m",
-            "leave the key out",
-        );
-    }
 }

@@ -193,7 +193,7 @@ pub fn unsupported_on_gpu(parameters: &Parameters) -> Option<&'static str> {
         return Some("density diffusion with renormalised gradients (numerics.density_diffusion = \"antuono\")");
     }
     if parameters.slip != WallSlip::Original {
-        return Some("free slip or no slip at walls (numerics.wall_slip other than \"original\")");
+        return Some("the slip of these walls (numerics.wall_slip; numerics.scheme = \"mitsui_2023\" gives another)");
     }
     if !parameters.gap_pressure {
         return Some("units without gap pressure (numerics.gap_pressure = false)");

@@ -8,7 +8,7 @@
 //!
 //! is the power of bed, walls, wavemaker and units. The power of viscosity is the same sum with only the rates caused
 //! by viscosity, plus the power of the acoustic damping, which is a bulk viscosity. The power of diffusion is the sum
-//! with only the rates caused by diffusion. Gravity is omitted, because it only converts kinetic energy to potential
+//! with only the rates caused by diffusion, plus the power of particle shifting. Gravity is omitted, because it only converts kinetic energy to potential
 //! energy and back.
 
 use glam::DVec3;
@@ -18,7 +18,7 @@ use crate::sph::{
     pairs::rate::Rate,
     parameters::Parameters,
     particles::{sums::sums, water::Water},
-    terms::{density_diffusion::Diffusion, viscosity::Viscosity},
+    terms::{density_diffusion::Diffusion, shifting::Shifting, viscosity::Viscosity},
 };
 
 /// Power received by the water [W].
@@ -28,7 +28,7 @@ pub struct Powers {
     pub boundary: f64,
     /// Power of viscosity and acoustic damping. It is negative (dissipation), unless moving walls drag the water along.
     pub viscosity: f64,
-    /// Power of density diffusion.
+    /// Power of density diffusion and of particle shifting, which both smooth the particle distribution.
     pub diffusion: f64,
     /// Root mean square of div v over the volume of the water [1/s]; div v = -(1 / rho) d rho/dt, without diffusion.
     pub divergence: f64,
@@ -49,7 +49,27 @@ impl Solver {
             },
             Diffusion::none(),
         );
-        Powers::of(water, &parameters, self.water_rates(), &pressure_only)
+        let mut powers = Powers::of(water, &parameters, self.water_rates(), &pressure_only);
+        powers.diffusion += self.shifting_power(water);
+        powers
+    }
+
+    /// Returns the power that the shifts of the particles give to the water without buffers [W].
+    fn shifting_power(&self, water: &Water) -> f64 {
+        let Parameters { shifting: Some(shifting), own_x: [from, to], tait, gravity, .. } = self.parameters else {
+            return 0.0;
+        };
+        let [power] = sums(water.len(), |a| {
+            if !(from..to).contains(&water.position[a].x) {
+                return [0.0];
+            }
+            let order = self.gradients.order(a);
+            let disorder = shifting.disorder(order.concentration_gradient, order.divergence);
+            let velocity = shifting.velocity(f64::from(self.water_rates()[a].approach), disorder);
+            let per_change = tait.pressure(water.density[a]) / water.density[a];
+            [water.mass[a] * (gravity * velocity.z + per_change * Shifting::density_change(velocity, disorder))]
+        });
+        power
     }
 }
 

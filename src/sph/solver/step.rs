@@ -48,7 +48,7 @@ pub struct Solver {
     ghosts: GhostNodes,
     /// Water velocities at the ghost nodes; computed only if the wall slip condition needs them.
     ghost_velocities: GhostVelocities,
-    gradients: Gradients,
+    pub(super) gradients: Gradients,
     half: Water,
     half_density: Vec<f64>,
     sorted: Water,
@@ -311,7 +311,7 @@ impl Solver {
     pub fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary) {
         let gravity = DVec3::NEG_Z * self.parameters.gravity;
         let (half, grid, gradients) = (&self.half, &self.grid, &self.gradients);
-        let Parameters { shifting, lowest_density, .. } = self.parameters;
+        let Parameters { shifting, lowest_density, own_x: [from, to], .. } = self.parameters;
         (&mut water.position, &mut water.velocity, &mut water.density, &self.water.rates)
             .into_par_iter()
             .enumerate()
@@ -320,12 +320,14 @@ impl Solver {
                 let end_velocity = *velocity + dt * (acceleration(rate) + gravity);
                 let mut moved = 0.5 * dt * (*velocity + end_velocity);
                 *density = end_density(*density, half.density[i], f64::from(rate.density), dt);
-                if let Some(shifting) = shifting {
+                // Particles in the buffer of another region follow its water.
+                let is_own = from <= position.x && position.x < to;
+                if let Some(shifting) = shifting.filter(|_| is_own) {
                     let order = gradients.order(i);
-                    let gradient = order.concentration_gradient;
-                    let shift = shifting.shift(dt, end_velocity.length(), gradient, order.divergence);
+                    let disorder = shifting.disorder(order.concentration_gradient, order.divergence);
+                    let shift = shifting.shift(dt, shifting.velocity(f64::from(rate.approach), disorder));
                     moved += shift;
-                    *density *= Shifting::density_ratio(shift, gradient);
+                    *density *= 1.0 + Shifting::density_change(shift, disorder);
                 }
                 *position = grid.wrap(*position + moved);
                 *velocity = end_velocity;
