@@ -33,7 +33,7 @@ fn other_slip() -> Vec<Value> {
         json!({ "scheme": "mitsui_2023" }),
         json!({ "wall_slip": "original" }),
         json!({ "wall_slip": "no_slip", "viscosity_alpha": 0.04 }),
-        json!({ "boundary": "dbc" }),
+        json!({ "scheme": "mitsui_2023", "boundary": "dbc" }),
     ]
 }
 

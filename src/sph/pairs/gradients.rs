@@ -16,6 +16,7 @@ use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes
 use crate::sph::neighbours::records::Record;
 use crate::sph::parameters::Parameters;
 use crate::sph::terms::density_diffusion::DensityDiffusion;
+use crate::sph::terms::shifting::Order;
 use crate::sph::terms::viscosity::Viscosity;
 
 /// Smallest determinant of M for which M is inverted [-]. In a block of water with the default smoothing length, det M
@@ -39,15 +40,6 @@ impl NeighbourData {
     /// The data of a boundary particle.
     pub(super) const OF_BOUNDARY: Self =
         Self { density_gradient: [0.0; 3], uses_target_gradient: 1.0, stress: [0.0; 6] };
-}
-
-/// Measures of the particle distribution around a target.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Order {
-    /// grad C [1/m].
-    pub concentration_gradient: DVec3,
-    /// div r [-]; the number of dimensions in a full neighbourhood.
-    pub divergence: f64,
 }
 
 /// Gradients at the water particles.
@@ -109,9 +101,14 @@ impl Gradients {
     /// Returns the measures of the particle distribution around a target.
     pub fn order(&self, target: usize) -> Order {
         let sums = &self.sums[target];
+        let concentration_gradient = DVec3::from_array(sums.concentration.map(f64::from));
+        let n = concentration_gradient.normalize_or_zero();
+        let [xx, yy, zz, xy, xz, yz] = sums.moments.map(f64::from);
+        let mixed = xy * n.x * n.y + xz * n.x * n.z + yz * n.y * n.z;
         Order {
-            concentration_gradient: DVec3::from_array(sums.concentration.map(f64::from)),
-            divergence: sums.moments[..3].iter().map(|&m| f64::from(m)).sum(),
+            concentration_gradient,
+            divergence: xx + yy + zz,
+            along_gradient: xx * n.x * n.x + yy * n.y * n.y + zz * n.z * n.z + 2.0 * mixed,
         }
     }
 

@@ -63,8 +63,7 @@ impl Solver {
             if !(from..to).contains(&water.position[a].x) {
                 return [0.0];
             }
-            let order = self.gradients.order(a);
-            let disorder = shifting.disorder(order.concentration_gradient, order.divergence);
+            let disorder = shifting.disorder(&self.gradients.order(a));
             let velocity = shifting.velocity(f64::from(self.water_rates()[a].approach), disorder);
             let per_change = tait.pressure(water.density[a]) / water.density[a];
             [water.mass[a] * (gravity * velocity.z + per_change * Shifting::density_change(velocity, disorder))]

@@ -323,8 +323,7 @@ impl Solver {
                 // Particles in the buffer of another region follow its water.
                 let is_own = from <= position.x && position.x < to;
                 if let Some(shifting) = shifting.filter(|_| is_own) {
-                    let order = gradients.order(i);
-                    let disorder = shifting.disorder(order.concentration_gradient, order.divergence);
+                    let disorder = shifting.disorder(&gradients.order(i));
                     let shift = shifting.shift(dt, shifting.velocity(f64::from(rate.approach), disorder));
                     moved += shift;
                     *density *= 1.0 + Shifting::density_change(shift, disorder);

@@ -8,14 +8,16 @@
 //! instead, which depends on the motion of the observer, and is zero at a stagnation point, where the particles are
 //! deformed most.
 //!
-//! Below a flat free surface at the distance s, evenly distributed particles have grad C = K(s) n with the normal n and
-//! K(s), the integral of W over the plane of the surface. The sum div r = sum_b V_b r_ba . grad_a W_ab is there smaller
-//! than the number of dimensions d, by D = d (1 - C) + s K (divergence theorem). For the Wendland kernel, h K is at most
-//! c D at any s, with c = 0.65 in three and 0.83 in two dimensions. Therefore
+//! Below a flat free surface at the distance s, evenly distributed particles have grad C = K n with the normal n and K(s),
+//! the integral of W over the plane of the surface. By the divergence theorem, the moments
+//! M = sum_b V_b r_ba (x) grad_a W_ab are C along the surface and C - s K across it, so the difference is s K. In d
+//! dimensions, the sum div r = tr M is smaller than d by D = d (1 - C) + s K. D is above 0.25 where s < 0.91 h. There,
+//! particles do not shift. Elsewhere, K is at most 1.1 times the difference divided by h. Therefore
 //!
-//!   g = grad C max(0, 1 - c D / (h |grad C|)),
+//!   g = grad C max(0, 1 - 1.1 (M_t - M_n) / (h |grad C|)),
 //!
-//! and a flat surface causes no shift. If it did, the shifts would lift the water and damp waves.
+//! with the mean M_t of the moments across grad C and the moment M_n along it, and a flat surface causes no shift. If it
+//! did, the shifts would lift the water and damp waves.
 //!
 //! A shift lowers the concentration, and with it the density: otherwise the densities, which follow all other motions,
 //! would become too large, and the level of the water would rise. The sum of V_a C_a over all particles is
@@ -26,8 +28,23 @@
 
 use glam::DVec3;
 
-/// Largest value of h K(s) / D(s) below a flat free surface, in two and in three dimensions [-].
-const FLAT_SURFACE: [f64; 2] = [0.83, 0.65];
+/// Measures of the particle distribution around a particle.
+#[derive(Debug, Clone, Copy)]
+pub struct Order {
+    /// grad C [1/m].
+    pub concentration_gradient: DVec3,
+    /// div r [-]; the number of dimensions in a full neighbourhood.
+    pub divergence: f64,
+    /// n . M n with the direction n of grad C [-]; 1 in a full neighbourhood.
+    pub along_gradient: f64,
+}
+
+/// Difference D of div r from the number of dimensions above which particles do not shift, because a free surface is
+/// near [-].
+const AT_SURFACE: f64 = 0.25;
+
+/// Largest value of h K(s) / (M_t - M_n) below a flat free surface, where D is at most [`AT_SURFACE`] [-].
+const FLAT_SURFACE: f64 = 1.1;
 
 /// Largest shift in one time step, as a share of the particle spacing [-].
 const MAX_SHIFT: f64 = 0.1;
@@ -46,12 +63,16 @@ pub struct Shifting {
 }
 
 impl Shifting {
-    /// Returns the part g of grad C [1/m] that a flat free surface does not cause, from grad C [1/m] and div r [-].
-    pub fn disorder(&self, concentration_gradient: DVec3, divergence: f64) -> DVec3 {
-        let missing = (f64::from(self.dimensions) - divergence).max(0.0);
-        let of_surface = FLAT_SURFACE[self.dimensions as usize - 2] * missing / self.h;
-        let all = concentration_gradient.length();
-        if all > of_surface { concentration_gradient * (1.0 - of_surface / all) } else { DVec3::ZERO }
+    /// Returns the part g of grad C that a flat free surface does not cause [1/m].
+    pub fn disorder(&self, order: &Order) -> DVec3 {
+        let dimensions = f64::from(self.dimensions);
+        if order.divergence < dimensions - AT_SURFACE {
+            return DVec3::ZERO;
+        }
+        let across_gradient = (order.divergence - order.along_gradient) / (dimensions - 1.0);
+        let of_surface = FLAT_SURFACE * (across_gradient - order.along_gradient).max(0.0) / self.h;
+        let all = order.concentration_gradient.length();
+        if all > of_surface { order.concentration_gradient * (1.0 - of_surface / all) } else { DVec3::ZERO }
     }
 
     /// Returns the velocity of the shift [m/s] from the speed of approach [m/s] and g [1/m].
@@ -79,7 +100,8 @@ mod tests {
     #[test]
     fn particles_shift_to_lower_concentration() {
         let shifting = Shifting { coefficient: 2.0, h: 0.02, dp: 0.01, dimensions: 3 };
-        let disorder = shifting.disorder(DVec3::X, 3.1);
+        let full = Order { concentration_gradient: DVec3::X, divergence: 3.1, along_gradient: 1.1 };
+        let disorder = shifting.disorder(&full);
         let velocity = shifting.velocity(1.0, disorder);
         assert_eq!(disorder, DVec3::X);
         assert!((shifting.shift(1e-4, velocity) - DVec3::X * -4e-6).length() < 1e-18);
@@ -101,16 +123,19 @@ mod tests {
                 radii.map(|t| kernel.value(kernel.closeness(t.hypot(s))) * ring(t) * width).sum()
             };
             let planes: Vec<f64> = (0..cells).map(|i| over_plane((f64::from(i) + 0.5) * width)).collect();
-            for (i, plane) in planes.iter().enumerate().step_by(40) {
-                let missing_concentration: f64 = planes[i..].iter().sum::<f64>() * width - 0.5 * plane * width;
+            for (i, plane) in planes.iter().enumerate().step_by(20) {
                 let s = (i as f64 + 0.5) * width;
-                let missing = f64::from(dimensions) * missing_concentration + s * plane;
-                let gradient = DVec3::NEG_Z * *plane;
-                let full = f64::from(dimensions);
-                assert_eq!(shifting.disorder(gradient, full - missing), DVec3::ZERO, "{dimensions} {}", s / h);
-                // The explained part is not much larger than the gradient: limit 1.7 from the constants of the surface
-                // (0.75 / 0.5 for s = 0 in three dimensions).
-                assert!(shifting.disorder(1.7 * gradient, full - missing).length() > 0.0 || *plane * h < 1e-3);
+                let missing = planes[i..].iter().sum::<f64>() * width - 0.5 * plane * width;
+                let order = |gradient: f64| Order {
+                    concentration_gradient: DVec3::NEG_Z * gradient,
+                    divergence: f64::from(dimensions) * (1.0 - missing) - s * plane,
+                    along_gradient: 1.0 - missing - s * plane,
+                };
+                assert_eq!(shifting.disorder(&order(*plane)), DVec3::ZERO, "{dimensions} {}", s / h);
+                // Twice this gradient shifts the particle if it is not at the surface: the explained part is at most
+                // 1.1 s / h = 2.2 times the gradient of the surface, at the end of the kernel.
+                let shifts = shifting.disorder(&order(2.3 * plane)).length() > 0.0;
+                assert!(if shifts { s > 0.9 * h } else { s < 0.95 * h }, "{dimensions} {}", s / h);
             }
         }
     }
