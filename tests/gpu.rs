@@ -43,7 +43,7 @@ fn tank(column: Option<[f64; 2]>) -> Value {
         "title": "Tank",
         "flume": { "bed_m": [[0.0, 0.0], [0.6, 0.0]], "still_water_level_m": 0.2, "material": "mortar" },
         "domain": { "x_m": [0.0, 0.6], "width_m": 0.25, "sides": "periodic", "top_z_m": 0.4, "dp_m": 0.025 },
-        "numerics": { "wall_slip": "original" },
+        "numerics": { "scheme": "mitsui_2023" },
         "materials": [{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
         "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.5 }],
         "stop": { "duration_s": 1.0 }

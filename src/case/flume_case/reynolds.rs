@@ -58,7 +58,7 @@ mod tests {
 
     fn slice(alpha: f64) -> Case {
         let text = include_str!("../../../cases/fudo/H2.6-slice.json");
-        let text = text.replace("\"wall_slip\"", &format!("\"viscosity_alpha\": {alpha}, \"wall_slip\""));
+        let text = text.replace("\"scheme\"", &format!("\"viscosity_alpha\": {alpha}, \"scheme\""));
         Case::from_str(&text, "cases/fudo/test.json").unwrap_or_else(|errors| panic!("{errors}"))
     }
 

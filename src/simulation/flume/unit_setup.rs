@@ -97,7 +97,7 @@ mod tests {
         let given = include_str!("../../../cases/fudo/H4.5-slice.json");
         for slides in [false, true] {
             let wanted = format!(r#""wall_slip": "free_slip", "slip_on_units": {slides}"#);
-            let text = given.replace(r#""wall_slip": "original""#, &wanted);
+            let text = given.replace(r#""scheme": "mitsui_2023""#, &wanted);
             let case = Case::from_str(&text, "cases/fudo/test.json").unwrap_or_else(|errors| panic!("{errors}"));
             let units = case.units.as_ref().expect("the slice has two units");
             let particles = unit_in_place(units.shape.unit(), &case);
