@@ -19,7 +19,7 @@ fn case(wave: &Value, duration: f64) -> Value {
         "flume": { "bed_m": [[0.0, 0.0], [30.0, 0.0]], "still_water_level_m": DEPTH,
                    "right_end": { "kind": "sponge", "length_m": 10.0 } },
         "domain": { "x_m": DOMAIN, "sides": "two_dimensional", "top_z_m": 0.5, "dp_m": DP },
-        "numerics": { "viscosity_alpha": 0.01, "cfl": 0.4 },
+        "numerics": { "viscosity_alpha": 0.01, "wall_friction": 0.0 },
         "fluid": { "sound_speed_factor": 10.0 },
         "wave": wave,
         "wavemaker": { "kind": "open_ends" },

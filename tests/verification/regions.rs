@@ -109,11 +109,11 @@ fn still_water(dp: f64, fine: &[[f64; 2]], duration: f64, moved: impl Fn(f64) ->
     Errors { rms, pressure }
 }
 
-/// Checks that still water is as calm as with the spacing `dp` [m] everywhere. 20 % for the rms speed is the scatter of
-/// such tanks.
+/// Checks that still water is as calm as with the spacing `dp` [m] everywhere, and its pressure error at most 1 % or that
+/// of such a tank. 20 % for the rms speed is the scatter of such tanks.
 fn assert_still(Errors { rms, pressure }: &Errors, dp: f64, duration: f64) {
     let plain = still_water(dp, &[], duration, fixed);
-    assert!(*rms < 1.2 * plain.rms && *pressure < 0.01);
+    assert!(*rms < 1.2 * plain.rms && *pressure < plain.pressure.max(0.01));
 }
 
 /// No end of the fine water moves.

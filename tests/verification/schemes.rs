@@ -21,7 +21,7 @@ fn sliding() -> Vec<Value> {
         viscous("laminar_sps"),
         // This setting has the viscosity of water and sub-particle-scale turbulence.
         json!({ "viscosity": "laminar_sps" }),
-        json!({ "shifting_coefficient": 2.0 }),
+        json!({ "shifting_coefficient": 0.0 }),
         json!({ "wall_slip": "free_slip" }),
     ]
 }
@@ -31,7 +31,6 @@ fn sliding() -> Vec<Value> {
 fn other_slip() -> Vec<Value> {
     vec![
         json!({ "scheme": "mitsui_2023" }),
-        json!({ "wall_slip": "original" }),
         json!({ "wall_slip": "no_slip", "viscosity_alpha": 0.04 }),
         json!({ "scheme": "mitsui_2023", "boundary": "dbc" }),
     ]

@@ -152,13 +152,7 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         "",
         "1 is usual: a water column as high as the smoothing length",
     );
-    check.number(
-        "numerics.shifting_coefficient",
-        shifting,
-        at_least(0.0).up_to(10.0),
-        "",
-        "0 for none; 2 is usual",
-    );
+    check.number("numerics.shifting_coefficient", shifting, at_least(0.0).up_to(10.0), "", "0 for none; 2 is usual");
     let wall_slip = validate_slip(file, check);
     let slides = matches!(wall_slip, WallSlip::FreeSlip | WallSlip::Inviscid);
     let wall_friction = file.wall_friction.unwrap_or(if slides { SMOOTH } else { 0.0 });
