@@ -64,26 +64,32 @@ struct Errors {
     pressure: f64,
 }
 
-/// Runs still water; checks the mass. `moved(time)` is how far the ends of the fine water have moved [m].
+/// Runs still water; checks the mass. `moved(time)` is how far the ends of the fine water have moved [m]; the last move
+/// must be more than one second before the end.
 fn still_water(dp: f64, fine: &[[f64; 2]], duration: f64, moved: impl Fn(f64) -> [f64; 2] + Send + Sync) -> Errors {
     let mut tank = simulation(&still_case(dp, fine, duration));
     let start = mass(&tank);
     let places = [0.5, 0.8, 0.9, 1.0, 1.1, 1.2, 1.5, 1.9, 2.0, 2.1];
     let (mut rms, mut pressures, mut readings, mut largest_between) = (0.0_f64, [0.0; 10], 0.0, 0.0_f64);
     let mut shared = [f64::MAX, f64::MIN];
+    let mut filled = 0.0;
     run_until(&mut tank, duration, |now| {
         let wanted = moved(now.time);
         if wanted != now.moved {
             now.move_regions(wanted).unwrap();
+            filled = now.time;
         }
         largest_between = largest_between.max(now.mass_between_regions().abs());
-        // The first second removes the errors of the lattice on which the particles start.
+        // One second removes the errors of the lattice on which the particles start. Water that a moving range fills
+        // starts on a lattice, too.
         if now.time < 1.0 || now.steps % 20 > 1 {
             return;
         }
         let of_now = shared_mass(now, 2.0 * dp);
         shared = [shared[0].min(of_now), shared[1].max(of_now)];
-        rms = rms.max(rms_speed(now) / (GRAVITY * DEPTH).sqrt());
+        if now.time >= filled + 1.0 {
+            rms = rms.max(rms_speed(now) / (GRAVITY * DEPTH).sqrt());
+        }
         readings += 1.0;
         for (sum, x) in pressures.iter_mut().zip(places) {
             let sample = now.region_at(x).sampler().sample(DVec3::new(x, 0.5 * dp, 0.1)).unwrap();
@@ -141,7 +147,7 @@ fn still_water_stays_still_when_the_fine_water_moves() {
         let moves = (10.0 * (time - 1.0)).floor().clamp(0.0, 8.0);
         [0.04 * moves, 0.08 * moves]
     };
-    assert_still(&still_water(0.01, &[[1.0, 2.0]], 2.5, moved), 0.01, 2.5);
+    assert_still(&still_water(0.01, &[[1.0, 2.0]], 3.5, moved), 0.01, 3.5);
 }
 
 /// The fine water can move away from the places where the units were at the start, and the units can move through its
