@@ -129,8 +129,9 @@ fn gauges_agree_with_the_force_on_a_box() {
     // Limit 15 %: the gauges show only the water's part of the pressure force, and neither the viscous force nor the
     // impulses of water that comes too near. With a linear fit at the gauges, the difference was 55 %.
     assert!((gauges / force - 1.0).abs() < 0.15);
-    // Limit 15 kPa: when the box mirrored only the normal velocity, the peak was 23 kPa; here it is 12 kPa.
-    assert!(peak < 15e3);
+    // Limit 20 kPa: 17.2 kPa with this spacing, 17.4 kPa with half of it. When the box mirrored only the normal velocity,
+    // the peak was 23 kPa.
+    assert!(peak < 20e3);
 
     // Impulses per metre of width, from the impact until 150 ms later. The wall behind the dam pushes the water towards
     // the box, and the bed has no friction. No water reaches the other wall.

@@ -179,9 +179,8 @@ impl Flow {
 #[test]
 fn a_coarse_square_cylinder_has_too_little_drag() {
     let flow = tow(8.0, 16.0);
-    // Reached: 1.18 so soon after the start, 1.37 after 36 sides. The limits are 15 % from the first value, to detect a
-    // change of the scheme.
-    assert!((flow.drag / 1.18 - 1.0).abs() < 0.15, "{flow:?}");
+    // Reached: 1.39. The limits are 15 % from this value, to detect a change of the scheme.
+    assert!((flow.drag / 1.39 - 1.0).abs() < 0.15, "{flow:?}");
 }
 
 #[test]
