@@ -27,7 +27,7 @@ pub use fracture::{
     FractureStopFile, Joints, LoadAxes, LoadFile, LoadedFaces, MethodFile, Softening, StrengthFile, VelocityFile,
 };
 pub use fracture_places::{LandmarkFile, SectionFile};
-pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Scheme, Viscosity, WallSlip};
+pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Scheme, SchemeDefaults, Viscosity, WallSlip};
 pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,
     Orientation, PlacementFile, PointFile, PoseFile, ScatterFile, Shape, StlFile, UnitsFile,

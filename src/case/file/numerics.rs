@@ -101,6 +101,31 @@ pub enum Scheme {
     Mitsui2023,
 }
 
+/// Defaults that depend on the scheme.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SchemeDefaults {
+    /// Coefficient alpha of artificial viscosity [-].
+    pub viscosity_alpha: f64,
+    /// Coefficient beta of the quadratic part of artificial viscosity [-].
+    pub viscosity_beta: f64,
+    /// Coefficient A of particle shifting [-].
+    pub shifting_coefficient: f64,
+    /// Velocity condition at bed and walls with the boundary condition `mdbc`.
+    pub wall_slip: WallSlip,
+}
+
+impl Scheme {
+    /// Returns the defaults of the scheme. With `low_dissipation`, water slides along walls, because its viscosity would
+    /// make boundary layers much thicker than in real water. With such layers, long waves lose height and speed.
+    pub fn defaults(self) -> SchemeDefaults {
+        let (viscosity_alpha, viscosity_beta, shifting_coefficient, wall_slip) = match self {
+            Self::LowDissipation => (0.005, 0.3, 2.0, WallSlip::Inviscid),
+            Self::Mitsui2023 => (0.04, 0.0, 0.0, WallSlip::Original),
+        };
+        SchemeDefaults { viscosity_alpha, viscosity_beta, shifting_coefficient, wall_slip }
+    }
+}
+
 /// Viscosity model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

@@ -1,6 +1,6 @@
 //! Validates the properties of the water and the settings of the SPH scheme.
 
-use crate::case::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Scheme, Viscosity, WallSlip};
+use crate::case::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Viscosity, WallSlip};
 use crate::case::flume::domain::{Domain, Water};
 use crate::case::reading::check::{Checker, at_least, upper_limit};
 
@@ -109,13 +109,10 @@ pub fn validate_fluid(file: &FluidFile, domain: Option<&Domain>, check: &mut Che
 /// of `hold_units_s` [s].
 pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check: &mut Checker) -> Option<Numerics> {
     let before = check.count();
-    let (alpha, beta, shifting) = match file.scheme {
-        Scheme::LowDissipation => (0.005, 0.3, 2.0),
-        Scheme::Mitsui2023 => (0.04, 0.0, 0.0),
-    };
-    let alpha = file.viscosity_alpha.unwrap_or(alpha);
-    let beta = file.viscosity_beta.unwrap_or(beta);
-    let shifting = file.shifting_coefficient.unwrap_or(shifting);
+    let defaults = file.scheme.defaults();
+    let alpha = file.viscosity_alpha.unwrap_or(defaults.viscosity_alpha);
+    let beta = file.viscosity_beta.unwrap_or(defaults.viscosity_beta);
+    let shifting = file.shifting_coefficient.unwrap_or(defaults.shifting_coefficient);
     check.number(
         "numerics.smoothing_factor",
         file.smoothing_factor,
@@ -208,13 +205,10 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
     })
 }
 
-/// Returns the velocity condition at walls. By default, water slides along them, because the viscosity of the scheme
-/// would make boundary layers much thicker than in real water. With such layers, long waves lose height and speed.
+/// Returns the velocity condition at walls.
 fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
     match (file.boundary, file.wall_slip) {
-        (Boundary::Mdbc, Some(slip)) => slip,
-        (Boundary::Mdbc, None) if file.scheme == Scheme::LowDissipation => WallSlip::Inviscid,
-        (Boundary::Mdbc, None) => WallSlip::Original,
+        (Boundary::Mdbc, slip) => slip.unwrap_or(file.scheme.defaults().wall_slip),
         (Boundary::Dbc, None) => WallSlip::Original,
         (Boundary::Dbc, Some(slip)) => {
             let slip = match slip {

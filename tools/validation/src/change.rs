@@ -2,14 +2,20 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use breakwater::{case::file::CaseFile, sweep::values::in_words};
-use serde_json::Value;
+use breakwater::{
+    case::file::{CaseFile, Scheme},
+    sweep::values::in_words,
+};
+use serde_json::{Value, json};
 
 /// Base case: two units between periodic sides. The base cases of the three waves differ only in the wave height.
 const BASE: &str = include_str!("../../../cases/fudo/H4.5-slice.json");
 
 /// Key of the friction coefficient between units and mound.
 pub const FRICTION: &str = "friction.mortar-pvc.coefficient";
+
+/// Key of the set of defaults of the SPH scheme.
+pub const SCHEME: &str = "numerics.scheme";
 
 /// Keys that do not change how the units move.
 const WITHOUT_EFFECT: [&str; 8] =
@@ -72,9 +78,12 @@ pub fn has_open_ends(case: &Value) -> bool {
     case["wavemaker"]["kind"] == "open_ends"
 }
 
-/// Changes of a case from the base case, sorted by key.
+/// Changes of a case from the base case, sorted by key. If the case has another scheme, its defaults are not listed.
 pub fn changes(case: &Value) -> Vec<Change> {
-    let (base, of_case) = (leaves(&base()), leaves(case));
+    let (mut base, mut of_case) = (leaves(&base()), leaves(case));
+    if base.get(SCHEME) == of_case.get(SCHEME) {
+        [&mut base, &mut of_case].into_iter().for_each(add_defaults);
+    }
     let value = |leaves: &BTreeMap<String, Value>, key: &str| leaves.get(key).cloned().unwrap_or_default();
     let keys: BTreeSet<&String> = base.keys().chain(of_case.keys()).collect();
     let mut changes: Vec<Change> = (keys.into_iter())
@@ -90,7 +99,26 @@ pub fn changes(case: &Value) -> Vec<Change> {
     changes
 }
 
-/// Values of all keys of a case by their paths, with defaults filled in. [`WITHOUT_EFFECT`] keys are left out.
+/// Adds the defaults that depend on the scheme.
+fn add_defaults(leaves: &mut BTreeMap<String, Value>) {
+    let scheme = leaves.get(SCHEME).and_then(|scheme| serde_json::from_value::<Scheme>(scheme.clone()).ok());
+    let Some(defaults) = scheme.map(Scheme::defaults) else { return };
+    let defaults = [
+        ("viscosity_alpha", json!(defaults.viscosity_alpha)),
+        ("viscosity_beta", json!(defaults.viscosity_beta)),
+        ("shifting_coefficient", json!(defaults.shifting_coefficient)),
+        ("wall_slip", json!(defaults.wall_slip)),
+    ];
+    for (key, default) in defaults {
+        let value = leaves.entry(format!("numerics.{key}")).or_insert(Value::Null);
+        if value.is_null() {
+            *value = default;
+        }
+    }
+}
+
+/// Values of all keys of a case by their paths. Defaults are filled in, except those that depend on the scheme.
+/// [`WITHOUT_EFFECT`] keys are left out.
 fn leaves(case: &Value) -> BTreeMap<String, Value> {
     let complete = serde_json::from_value::<CaseFile>(case.clone()).and_then(serde_json::to_value);
     let mut leaves = BTreeMap::new();
@@ -126,8 +154,6 @@ fn name(item: &Value) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
 
     #[test]
@@ -158,6 +184,15 @@ mod tests {
         assert_eq!(changes(&case).len(), 1);
         case["wavemaker"] = json!({ "kind": "open_ends" });
         assert_eq!(changes(&case), []);
+    }
+
+    #[test]
+    fn another_scheme_is_one_change() {
+        let mut case = base();
+        case["numerics"]["scheme"] = json!("low_dissipation");
+        assert_eq!(changes(&case).iter().map(|change| change.key.as_str()).collect::<Vec<_>>(), [SCHEME]);
+        case["numerics"]["viscosity_alpha"] = json!(0.01);
+        assert_eq!(changes(&case).len(), 2);
     }
 
     #[test]
