@@ -57,6 +57,8 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
          A unit is damaged when it has moved further than its height, 0.077 m.",
     );
     add_table(&mut page, &base);
+    figures::add(&mut page, &waves, &base);
+    friction::add(&mut page, &waves, &results, frictions);
     if !predicted.is_empty() {
         page.add("## Prediction with the default scheme");
         page.add(
@@ -65,8 +67,6 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
         );
         add_table(&mut page, &predicted);
     }
-    figures::add(&mut page, &waves, &base);
-    friction::add(&mut page, &waves, &results, frictions);
     dependence::add(&mut page, &waves, &results);
     page.add("## Repeat a run");
     page.add(
