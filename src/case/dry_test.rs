@@ -14,7 +14,7 @@ use super::reading::error::CaseErrors;
 use super::reading::hash::fingerprint;
 use super::reading::identity::CaseIdentity;
 use super::units::contact::{self, Contact};
-use super::units::materials::{self, Material, Materials};
+use super::units::materials::{self, GroundNames, Material, Materials};
 use super::units::{self, Surroundings, Units};
 
 /// Kind of dry test, with its parameters. SI units; angles in radians.
@@ -165,7 +165,8 @@ pub(super) struct Ground {
 
 /// Validates the materials, the ground and the contact settings.
 pub(super) fn validate_ground(file: &DryFile, name: &str, check: &mut Checker) -> Ground {
-    let materials = materials::validate(&file.materials, &file.friction, Some(&file.flume.material), check);
+    let ground = GroundNames::new(Some(&file.flume.material), file.flume.mound.as_ref());
+    let materials = materials::validate(&file.materials, &file.friction, ground, check);
     let site = validate_site(file, name, materials.ground, check);
     let contact = contact::validate(&file.contact, check);
     Ground { materials, site, contact }
@@ -215,7 +216,8 @@ fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mu
         terrain::validate_place(terrain, &flume.profile, [x0, x1], file.domain.width_m, file.domain.top_z_m, check);
     }
     let (x, width, sides, top_z) = (file.domain.x_m, file.domain.width_m, file.domain.sides, file.domain.top_z_m);
-    (check.count() == before).then_some(Site { profile: flume.profile, terrain, x, width, sides, top_z })
+    let mound_x = flume.mound.map(|mound| mound.toe_x);
+    (check.count() == before).then_some(Site { profile: flume.profile, mound_x, terrain, x, width, sides, top_z })
 }
 
 /// Returns the test and the height by which it lifts the units [m].

@@ -8,7 +8,7 @@ use super::reading::check::{Checker, at_least, more_than};
 use super::reading::document::{Document, InputKind};
 use super::reading::error::CaseErrors;
 use super::units::contact::{self, Contact};
-use super::units::materials::{self, Material};
+use super::units::materials::{self, GroundNames, Material};
 use super::units::{self, MAX_UNITS, Surroundings, Units};
 use super::{dry_test, flume_case};
 
@@ -92,7 +92,8 @@ fn validate_dry_test(file: &DryFile, document: &Document, check: &mut Checker) -
 }
 
 fn validate_flume_case(file: &CaseFile, document: &Document, check: &mut Checker) -> Option<LayerJob> {
-    let materials = materials::validate(&file.materials, &file.friction, file.flume.material.as_deref(), check);
+    let ground = GroundNames::new(file.flume.material.as_deref(), file.flume.mound.as_ref());
+    let materials = materials::validate(&file.materials, &file.friction, ground, check);
     let flume = bed::validate(&file.flume, materials.ground, check)?;
     let domain = domain::validate(&file.domain, Some(&flume), file.numerics.smoothing_factor, check)?;
     let contact = contact::validate(&file.contact, check);

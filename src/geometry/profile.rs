@@ -50,10 +50,10 @@ impl Profile {
         (z1 - z0) / (x1 - x0)
     }
 
-    /// Returns the bed with a trapezoidal mound. The mound's crest lies between the two `crest_x` [m] at the level
+    /// Returns the bed with a trapezoidal mound, and x of the mound's two toes [m]. The mound's crest lies between the two `crest_x` [m] at the level
     /// `crest_z` [m]; `run_per_rise` is the horizontal run of each slope per unit of rise. `None` if the crest lies
     /// below the bed, or a slope does not meet the bed inside the profile.
-    pub fn with_mound(&self, crest_x: [f64; 2], crest_z: f64, run_per_rise: [f64; 2]) -> Option<Self> {
+    pub fn with_mound(&self, crest_x: [f64; 2], crest_z: f64, run_per_rise: [f64; 2]) -> Option<(Self, [f64; 2])> {
         if self.z(crest_x[0]) >= crest_z || self.z(crest_x[1]) >= crest_z {
             return None;
         }
@@ -62,7 +62,7 @@ impl Profile {
         let mut points: Vec<[f64; 2]> = self.points.iter().copied().filter(|p| p[0] < toe_seaward[0]).collect();
         points.extend([toe_seaward, [crest_x[0], crest_z], [crest_x[1], crest_z], toe_lee]);
         points.extend(self.points.iter().copied().filter(|p| p[0] > toe_lee[0]));
-        Some(Self::new(points))
+        Some((Self::new(points), [toe_seaward[0], toe_lee[0]]))
     }
 
     /// First point [m] where a slope that starts at (x, z) meets the bed; `run` is the signed horizontal run of the
@@ -108,9 +108,10 @@ mod tests {
     #[test]
     fn mound_slopes_meet_the_sloping_bed() {
         let bed = Profile::new(vec![[0.0, 0.0], [19.0, 0.0], [55.0, 1.2]]);
-        let with = bed.with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
+        let (with, toes) = bed.with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
         assert_eq!(with.z(39.0), 0.717);
         let toe = with.points()[2];
+        assert_eq!(toes, [toe[0], with.points()[5][0]]);
         assert!((toe[1] - bed.z(toe[0])).abs() < 1e-12);
         assert!(((38.84 - toe[0]) / (0.717 - toe[1]) - 2.0).abs() < 1e-9);
         assert!(bed.with_mound([38.84, 39.16], 0.5, [2.0, 2.0]).is_none());

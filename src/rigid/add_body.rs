@@ -52,7 +52,12 @@ mod tests {
             shape: BodyShape::ball(0.1, 1.0),
             bodies: vec![BodyState::at_rest(DVec3::new(0.0, 0.5, 0.1), DQuat::IDENTITY)],
             material,
-            ground: Some(Ground { profile: Profile::new(vec![[-5.0, 0.0], [5.0, 0.0]]), terrain: None, material }),
+            ground: Some(Ground {
+                profile: Profile::new(vec![[-5.0, 0.0], [5.0, 0.0]]),
+                terrain: None,
+                material,
+                cover: None,
+            }),
             sides,
             end_walls: None,
             wall_material: material,

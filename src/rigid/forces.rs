@@ -8,6 +8,7 @@ use super::kinematics::{ContactMotion, Motion};
 use super::law::{ContactLaw, Material};
 use super::motion::Load;
 use super::record::{ContactRecords, ForceStep};
+use super::search::ground::places_between;
 use super::setup::RigidSetup;
 
 /// Energy balance of all bodies [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
@@ -34,6 +35,8 @@ pub struct Energy {
 pub struct Laws {
     unit: ContactLaw,
     ground: ContactLaw,
+    /// Law of the cover, for the ground elements from the first to the last number.
+    cover: Option<([u32; 2], ContactLaw)>,
     wall: ContactLaw,
     mass: f64,
     least_inertia: f64,
@@ -59,9 +62,11 @@ impl Laws {
         let radius = setup.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min);
         let ground = setup.ground.as_ref().map_or(*material, |g| g.material);
         let fixed = |other: &Material, resistance| ContactLaw::new(*model, material, other, resistance, mass, radius);
+        let cover = setup.ground.as_ref().and_then(|g| Some((g.cover?, &g.profile)));
         Self {
             unit: ContactLaw::new(*model, material, material, friction.unit_unit, 0.5 * mass, 0.5 * radius),
             ground: fixed(&ground, friction.unit_ground),
+            cover: cover.map(|(c, profile)| (places_between(profile, c.x), fixed(&c.material, c.resistance))),
             wall: fixed(wall_material, friction.unit_wall),
             mass,
             least_radius: radius,
@@ -74,7 +79,11 @@ impl Laws {
     fn law_of(&self, feature: Feature) -> &ContactLaw {
         match feature {
             Feature::Unit { .. } => &self.unit,
-            Feature::Ground { .. } | Feature::Terrain { .. } => &self.ground,
+            Feature::Ground { place, .. } => match &self.cover {
+                Some(([first, last], law)) if (*first..=*last).contains(&place) => law,
+                _ => &self.ground,
+            },
+            Feature::Terrain { .. } => &self.ground,
             Feature::Wall { .. } => &self.wall,
         }
     }

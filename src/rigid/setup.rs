@@ -58,6 +58,19 @@ pub struct Ground {
     pub terrain: Option<Arc<Terrain>>,
     /// Material of the profile and the triangle surface.
     pub material: Material,
+    /// A part of the profile with a surface of its own.
+    pub cover: Option<Cover>,
+}
+
+/// Surface of a part of the profile.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cover {
+    /// Positions x of the two ends [m], two points of the profile.
+    pub x: [f64; 2],
+    /// Material of the surface.
+    pub material: Material,
+    /// Friction and rolling resistance between a body and the surface.
+    pub resistance: Resistance,
 }
 
 /// Side boundaries of the flume for the bodies.
@@ -78,7 +91,7 @@ pub enum Sides {
 pub struct Friction {
     /// Between two bodies.
     pub unit_unit: Resistance,
-    /// Between a body and the ground.
+    /// Between a body and the ground outside of its cover.
     pub unit_ground: Resistance,
     /// Between a body and a wall.
     pub unit_wall: Resistance,
@@ -134,7 +147,9 @@ impl RigidSetup {
             return reject("the rounding radius [m]", part.rounding(), "positive");
         }
         let ground = self.ground.as_ref().map(|g| &g.material);
-        for material in [Some(&self.material), ground, Some(&self.wall_material)].into_iter().flatten() {
+        let cover = self.ground.as_ref().and_then(|g| g.cover.as_ref());
+        let materials = [Some(&self.material), ground, cover.map(|c| &c.material), Some(&self.wall_material)];
+        for material in materials.into_iter().flatten() {
             if !(material.young_modulus > 0.0 && material.young_modulus.is_finite()) {
                 return reject("Young's modulus [Pa]", material.young_modulus, "positive");
             }
@@ -145,7 +160,9 @@ impl RigidSetup {
                 return reject("the coefficient of restitution", material.restitution, "between 0 and 1");
             }
         }
-        for pair in [self.friction.unit_unit, self.friction.unit_ground, self.friction.unit_wall] {
+        let Friction { unit_unit, unit_ground, unit_wall } = self.friction;
+        let pairs = [Some(unit_unit), Some(unit_ground), Some(unit_wall), cover.map(|c| c.resistance)];
+        for pair in pairs.into_iter().flatten() {
             let coefficients = [pair.static_friction, pair.kinetic_friction, pair.rolling];
             if let Some(bad) = coefficients.iter().find(|mu| !(**mu >= 0.0 && mu.is_finite())) {
                 return reject("a coefficient of friction or rolling resistance", *bad, "0 or greater");

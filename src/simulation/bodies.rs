@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::{
     case::{self, ContactLawName, Sides, Site, Units},
-    rigid::{self, BodyShape, BodyState, ContactModel, Friction, Ground, RigidSetup},
+    rigid::{self, BodyShape, BodyState, ContactModel, Cover, Friction, Ground, RigidSetup},
 };
 
 /// Returns the set-up of the rigid-body solver: units, bed, walls, materials and contact law.
@@ -28,6 +28,11 @@ pub fn rigid_setup(
             profile: site.profile.clone(),
             terrain: site.terrain.as_ref().map(|terrain| terrain.surface.clone()),
             material: ground,
+            cover: site.mound_x.map(|x| Cover {
+                x,
+                material: material(units.mound_material),
+                resistance: units.on_mound,
+            }),
         }),
         sides: match site.sides {
             Sides::Periodic => rigid::Sides::Periodic { width: site.width },

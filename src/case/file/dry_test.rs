@@ -111,7 +111,7 @@ pub struct DryFlumeFile {
     /// A triangulated surface on or above the bed, for example rubble, a surveyed terrain or a detailed mound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub terrain: Option<TerrainFile>,
-    /// Material of bed, mound, terrain and walls: a name in `materials`.
+    /// Material of bed, terrain and walls: a name in `materials`.
     pub material: String,
 }
 

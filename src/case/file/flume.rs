@@ -14,7 +14,7 @@ pub struct FlumeFile {
     /// A trapezoidal mound on the bed.
     #[serde(default)]
     pub mound: Option<MoundFile>,
-    /// Material of bed, mound and walls: a name in `materials`. Required if the case has units.
+    /// Material of bed and walls: a name in `materials`. Required if the case has units.
     #[serde(default)]
     pub material: Option<String>,
     /// Number of layers over the depth in the flume model, 1 to 8.
@@ -98,4 +98,7 @@ pub struct MoundFile {
     pub seaward_run_per_rise: f64,
     /// Lee slope as horizontal run per unit of rise [-].
     pub lee_run_per_rise: f64,
+    /// Material of the mound's surface: a name in `materials`. By default, the material of the bed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
 }

@@ -42,6 +42,8 @@ pub struct Mound {
     pub crest_x: [f64; 2],
     /// Crest level [m].
     pub crest_z: f64,
+    /// x of the seaward and of the lee toe [m].
+    pub toe_x: [f64; 2],
 }
 
 impl Flume {
@@ -231,5 +233,6 @@ fn place_mound(mound: &MoundFile, bed: &Profile, check: &mut Checker) -> Option<
             "lower the crest, steepen the slopes or lengthen the bed",
         );
     }
-    Some((profile?, Mound { crest_x, crest_z: mound.crest_z_m }))
+    let (profile, toe_x) = profile?;
+    Some((profile, Mound { crest_x, crest_z: mound.crest_z_m, toe_x }))
 }

@@ -82,7 +82,8 @@ impl Domain {
     /// Returns the ground and the boundaries of the area in which units stand.
     pub fn site(&self, flume: &Flume) -> Site {
         let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);
-        Site { profile: flume.profile.clone(), terrain: None, x, width, sides, top_z }
+        let mound_x = flume.mound.map(|mound| mound.toe_x);
+        Site { profile: flume.profile.clone(), mound_x, terrain: None, x, width, sides, top_z }
     }
 
     /// Returns the particle spacing at x [m].

@@ -9,6 +9,8 @@ use crate::geometry::profile::Profile;
 pub struct Site {
     /// Ground: the bed with the mound.
     pub profile: Profile,
+    /// x of the seaward and of the lee toe of the mound, if any [m].
+    pub mound_x: Option<[f64; 2]>,
     /// Terrain: a triangulated surface on or above the ground, if any.
     pub terrain: Option<SiteTerrain>,
     /// x of the seaward and of the shoreward end of the area [m].

@@ -17,7 +17,7 @@ use crate::case::reading::hash::fingerprint;
 use crate::case::reading::identity::CaseIdentity;
 use crate::case::reference::{self, Reference};
 use crate::case::units::contact::{self, Contact};
-use crate::case::units::materials::{self, Materials};
+use crate::case::units::materials::{self, GroundNames, Materials};
 use crate::case::units::{self, Surroundings, Units, WaterAround};
 use crate::case::wave::wavemaker::{self, Wavemaker};
 use crate::case::wave::{self, Wave};
@@ -31,7 +31,7 @@ const MOST_PARTICLES: f64 = 1e9;
 /// and returns `None`.
 pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker) -> Option<Case> {
     check.title(&file.title);
-    let materials = materials::validate(&file.materials, &file.friction, ground_material(file, check), check);
+    let materials = materials::validate(&file.materials, &file.friction, ground_materials(file, check), check);
     let flume = bed::validate(&file.flume, materials.ground, check);
     let domain = domain::validate(&file.domain, flume.as_ref(), file.numerics.smoothing_factor, check);
     let fluid = numerics::validate_fluid(&file.fluid, domain.as_ref(), check);
@@ -84,14 +84,18 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
     Some(case)
 }
 
-/// Returns the name of the material of the ground. Without units and materials, the name has no effect.
-fn ground_material<'a>(file: &'a CaseFile, check: &mut Checker) -> Option<&'a str> {
-    let name = file.flume.material.as_deref()?;
-    if file.units.is_none() && file.materials.is_empty() {
-        check.warn(format!("flume.material = {name:?}: has no effect without units"));
-        return None;
+/// Returns the names of the materials of the ground. Without units and materials, these names have no effect.
+fn ground_materials<'a>(file: &'a CaseFile, check: &mut Checker) -> GroundNames<'a> {
+    let names = GroundNames::new(file.flume.material.as_deref(), file.flume.mound.as_ref());
+    if file.units.is_some() || !file.materials.is_empty() {
+        return names;
     }
-    Some(name)
+    for (key, name) in [("flume.material", names.bed), ("flume.mound.material", names.mound)] {
+        if let Some(name) = name {
+            check.warn(format!("{key} = {name:?}: has no effect without units"));
+        }
+    }
+    GroundNames::default()
 }
 
 /// Validated sections on which later sections depend.

@@ -1,6 +1,6 @@
 //! Validates materials and the friction between them.
 
-use crate::case::file::{FrictionFile, MaterialFile};
+use crate::case::file::{FrictionFile, MaterialFile, MoundFile};
 use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::case::reading::error::nearest;
 
@@ -46,21 +46,40 @@ pub struct Materials {
     pub list: Vec<Material>,
     /// Friction of each pair of materials in the file.
     pub friction: Vec<FrictionPair>,
-    /// Material of bed and mound, an index into `list`; `None` if the file names no material or an unknown one.
+    /// Material of the bed, an index into `list`; `None` if the file names no material or an unknown one.
     pub ground: Option<usize>,
+    /// Material of the mound, an index into `list`; `None` if the file names no material of its own or an unknown one.
+    pub mound: Option<usize>,
 }
 
-/// Validates materials and friction, and looks up the material of the ground.
+/// Names of the materials of the ground in a case file.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct GroundNames<'a> {
+    /// Material of the bed.
+    pub bed: Option<&'a str>,
+    /// Material of the mound; `None` if it is that of the bed.
+    pub mound: Option<&'a str>,
+}
+
+impl<'a> GroundNames<'a> {
+    /// Collects the names of bed and mound.
+    pub fn new(bed: Option<&'a str>, mound: Option<&'a MoundFile>) -> Self {
+        Self { bed, mound: mound.and_then(|mound| mound.material.as_deref()) }
+    }
+}
+
+/// Validates materials and friction, and looks up the materials of the ground.
 pub fn validate(
     materials: &[MaterialFile],
     friction: &[FrictionFile],
-    ground: Option<&str>,
+    ground: GroundNames,
     check: &mut Checker,
 ) -> Materials {
     let list = validate_materials(materials, check);
     let friction = validate_friction(friction, &list, check);
-    let ground = ground.and_then(|name| find(&list, name, "flume.material", check));
-    Materials { list, friction, ground }
+    let mound = ground.mound.and_then(|name| find(&list, name, "flume.mound.material", check));
+    let ground = ground.bed.and_then(|name| find(&list, name, "flume.material", check));
+    Materials { list, friction, ground, mound }
 }
 
 /// Validates the materials. The result also has entries for invalid materials, so that indices follow the file.

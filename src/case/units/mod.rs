@@ -24,6 +24,7 @@ use glam::DVec3;
 use self::contact::Contact;
 use self::materials::Materials;
 pub use self::pose::UnitPose;
+use self::resistance::Resistances;
 use self::shape::{UnitKind, UnitShape};
 use super::file::{Orientation, PoseFile, Sides, UnitsFile};
 use super::flume::site::Site;
@@ -48,12 +49,16 @@ pub struct Units {
     pub damage_distance: f64,
     /// Material of the units, an index into `Case::materials`.
     pub material: usize,
-    /// Material of bed and mound, an index into `Case::materials`.
+    /// Material of the bed, an index into `Case::materials`.
     pub ground_material: usize,
+    /// Material of the mound, an index into `Case::materials`.
+    pub mound_material: usize,
     /// Friction and restitution between two units.
     pub on_unit: Resistance,
-    /// Friction and restitution between a unit and bed, mound or walls.
+    /// Friction and restitution between a unit and bed or walls.
     pub on_ground: Resistance,
+    /// Friction and restitution between a unit and the mound.
+    pub on_mound: Resistance,
 }
 
 impl Units {
@@ -132,14 +137,15 @@ pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: 
             "flume.material",
             "(missing)",
             "one of `materials` when there are units",
-            "write the material of bed and mound",
+            "write the material of the bed",
         );
     }
     let friction = resistance::validate(material, around, check);
     if check.count() > before {
         return None;
     }
-    let [on_unit, on_ground] = friction?;
+    let Resistances { on_unit, on_ground, on_mound } = friction?;
+    let ground_material = around.materials.ground?;
     let shape = shape?;
     Some(Units {
         mass: file.mass_kg,
@@ -148,9 +154,11 @@ pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: 
         damage_distance: file.damage_distance_m.unwrap_or(shape.height()),
         shape,
         material: material?,
-        ground_material: around.materials.ground?,
+        ground_material,
+        mound_material: around.materials.mound.unwrap_or(ground_material),
         on_unit,
         on_ground,
+        on_mound,
     })
 }
 

@@ -1,14 +1,24 @@
-//! Looks up friction and restitution between two units, and between a unit and the ground.
+//! Looks up friction and restitution between two units, and between a unit and bed or mound.
 
 use super::{Surroundings, materials};
 use crate::case::file::ContactLawName;
 use crate::case::reading::check::Checker;
 use crate::rigid::Resistance;
 
-/// Returns friction and restitution between two units, and between a unit and the ground. `material` is the index of
-/// the material of the units.
-pub(super) fn validate(material: Option<usize>, around: &Surroundings, check: &mut Checker) -> Option<[Resistance; 2]> {
+/// Friction and restitution of the units.
+pub(super) struct Resistances {
+    /// Between two units.
+    pub on_unit: Resistance,
+    /// Between a unit and the bed.
+    pub on_ground: Resistance,
+    /// Between a unit and the mound.
+    pub on_mound: Resistance,
+}
+
+/// Returns friction and restitution of the units. `material` is the index of their material.
+pub(super) fn validate(material: Option<usize>, around: &Surroundings, check: &mut Checker) -> Option<Resistances> {
     let (unit, ground) = (material?, around.materials.ground?);
+    let mound = around.materials.mound.unwrap_or(ground);
     let mut lookup = |a: usize, b: usize| {
         let found = materials::pair(&around.materials.friction, a, b);
         let (a, b) = (&around.materials.list[a], &around.materials.list[b]);
@@ -44,5 +54,6 @@ pub(super) fn validate(material: Option<usize>, around: &Surroundings, check: &m
     };
     let on_unit = lookup(unit, unit);
     let on_ground = if ground == unit { on_unit } else { lookup(unit, ground) };
-    Some([on_unit?, on_ground?])
+    let on_mound = if mound == ground { on_ground } else { lookup(unit, mound) };
+    Some(Resistances { on_unit: on_unit?, on_ground: on_ground?, on_mound: on_mound? })
 }

@@ -105,6 +105,14 @@ impl GroundSurface {
     }
 }
 
+/// Returns the numbers of the first and the last ground element ([`Feature::Ground`]) between two points of the profile,
+/// given by their x [m]. Corners at the two points themselves do not count.
+pub fn places_between(profile: &Profile, x: [f64; 2]) -> [u32; 2] {
+    let [first, last] = x.map(|x| profile.points().partition_point(|p| p[0] < x - SAME_POINT) as u32);
+    // Strip k lies between the points k - 1 and k.
+    [2 * (first + 1), 2 * last]
+}
+
 /// Largest distance in x outside a strip at which a foot point still counts as on the strip [m].
 const SAME_POINT: f64 = 1e-12;
 /// Sine of the angle below which two strips count as one plane [-].
@@ -264,6 +272,23 @@ mod tests {
             // The distance of the centre from the slope is 0.1 m times cos(atan 0.5).
             assert!((found[0].distance - 0.0894427191).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn elements_between_the_toes_are_the_two_flanks_the_crest_and_its_edges() {
+        let points = vec![[-9.0, 0.0], [-3.0, 0.0], [-1.0, 1.0], [1.0, 1.0], [3.0, 0.0], [9.0, 0.0]];
+        let profile = Profile::new(points);
+        let [first, last] = places_between(&profile, [-3.0, 3.0]);
+        let surface = GroundSurface::new(&profile);
+        let inside = |x: f64, z: f64| {
+            let found = near(&surface, DVec3::new(x, 0.0, z));
+            assert_eq!(found.len(), 1, "{x}, {z}");
+            let Feature::Ground { place, .. } = found[0].feature else { panic!("{:?}", found[0]) };
+            (first..=last).contains(&place)
+        };
+        // Bed, flank, crest, edge of the crest, flank, bed.
+        let at = [(-4.0, 0.1), (-2.0, 0.6), (0.0, 1.1), (1.02, 1.1), (2.0, 0.6), (4.0, 0.1)];
+        assert_eq!(at.map(|(x, z)| inside(x, z)), [false, true, true, true, true, false]);
     }
 
     #[test]

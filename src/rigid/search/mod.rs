@@ -10,7 +10,7 @@
 //! | `terrain_contact` | distance to a triangle surface |
 
 mod broad_phase;
-mod ground;
+pub(super) mod ground;
 mod nearest_points;
 mod polyhedron_contact;
 mod surfaces;

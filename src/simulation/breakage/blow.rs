@@ -55,8 +55,7 @@ impl<'a> ScaledImpact<'a> {
         let froude = Froude { scale: settings.scale };
         let event = &impact.event;
         let on_unit = event.partner_unit().is_some();
-        let partner = if on_unit { &model.material } else { &model.ground };
-        let recorded = effective_young_modulus(&model.material, partner);
+        let recorded = effective_young_modulus(&model.material, model.partner(event));
         let [unit, base] = settings.materials();
         let prototype = effective_young_modulus(&unit, if on_unit { &unit } else { &base });
         let scale = match model.law {

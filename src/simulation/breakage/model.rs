@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::case::{Case, DryTestCase, UnitShape, Units};
+use crate::case::{Case, DryTestCase, Site, UnitShape, Units};
 use crate::case::{ContactLawName, Material as CaseMaterial};
 use crate::output::Impact;
-use crate::rigid::{BodyState, Material};
+use crate::rigid::{BodyState, ContactEvent, Feature, Material};
 
 /// Properties of the units of a run.
 #[derive(Debug, Clone)]
@@ -22,6 +22,8 @@ pub struct Model {
     pub material: Material,
     /// Contact properties of the bed.
     pub ground: Material,
+    /// x of the toes of the mound [m] and contact properties of the mound, if any.
+    pub mound: Option<([f64; 2], Material)>,
     /// Contact law.
     pub law: ContactLawName,
     /// Acceleration of gravity [m/s2].
@@ -32,15 +34,15 @@ impl Model {
     /// Returns the properties of the units of a flume case; `None` if the case has no units.
     pub fn of_case(case: &Case) -> Option<Self> {
         let units = case.units.as_ref()?;
-        Some(Self::of_units(units, &case.materials, case.contact.law, case.fluid.gravity))
+        Some(Self::of_units(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity))
     }
 
     /// Returns the properties of the units of a dry test.
     pub fn of_dry(case: &DryTestCase) -> Self {
-        Self::of_units(&case.units, &case.materials, case.contact.law, case.gravity)
+        Self::of_units(&case.units, &case.site, &case.materials, case.contact.law, case.gravity)
     }
 
-    fn of_units(units: &Units, materials: &[CaseMaterial], law: ContactLawName, gravity: f64) -> Self {
+    fn of_units(units: &Units, site: &Site, materials: &[CaseMaterial], law: ContactLawName, gravity: f64) -> Self {
         let material = |index: usize| {
             let CaseMaterial { young_modulus, poisson_ratio, restitution, .. } = materials[index];
             Material { young_modulus, poisson_ratio, restitution }
@@ -52,8 +54,19 @@ impl Model {
             count: units.placements.len(),
             material: material(units.material),
             ground: material(units.ground_material),
+            mound: site.mound_x.map(|x| (x, material(units.mound_material))),
             law,
             gravity,
+        }
+    }
+
+    /// Returns the contact properties of the surface that a unit hits.
+    pub fn partner(&self, event: &ContactEvent) -> &Material {
+        let within = |x: &[f64; 2]| (x[0]..=x[1]).contains(&event.point[0]);
+        match (event.partner, &self.mound) {
+            (Feature::Unit { .. }, _) => &self.material,
+            (Feature::Ground { .. }, Some((x, mound))) if within(x) => mound,
+            _ => &self.ground,
         }
     }
 

@@ -62,7 +62,7 @@ fn frictionless_elastic_bodies_keep_their_energy() {
     let elastic = Material { restitution: 1.0, young_modulus: 1e9, ..MORTAR };
     let none = Friction { unit_unit: 0.0.into(), unit_ground: 0.0.into(), unit_wall: 0.0.into() };
     let setup = RigidSetup { material: elastic, wall_material: elastic, friction: none, ..heap(&tetrapod()) };
-    let ground = Some(Ground { profile: level(), terrain: None, material: elastic });
+    let ground = Some(Ground { profile: level(), terrain: None, material: elastic, cover: None });
     let mut world = RigidWorld::new(RigidSetup { ground, ..setup }).unwrap();
     let mechanical = |w: &RigidWorld| w.energy().kinetic + w.energy().potential + w.energy().elastic;
     let start = mechanical(&world);

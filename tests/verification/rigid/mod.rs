@@ -37,7 +37,7 @@ fn setup(shape: BodyShape, bodies: Vec<BodyState>, material: Material, friction:
         shape,
         bodies,
         material,
-        ground: Some(Ground { profile: level(), terrain: None, material }),
+        ground: Some(Ground { profile: level(), terrain: None, material, cover: None }),
         sides: Sides::Open,
         end_walls: None,
         wall_material: material,

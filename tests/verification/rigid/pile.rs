@@ -26,7 +26,7 @@ fn lattice(count: usize, along: usize, across: usize) -> RigidSetup {
     let bodies = (0..count).map(body).collect();
     let profile = Profile::new(vec![[-1.0, 0.0], [0.0, 0.0], [length, length / 1.5], [length + 1.0, length / 1.5]]);
     RigidSetup {
-        ground: Some(Ground { profile, terrain: None, material: MORTAR }),
+        ground: Some(Ground { profile, terrain: None, material: MORTAR, cover: None }),
         sides: Sides::Walls { width },
         end_walls: Some([0.0, length]),
         ..setup(BodyShape::from_unit(&tetrapod(), MASS), bodies, MORTAR, 0.65)

@@ -97,7 +97,7 @@ fn a_unit_slides_over_the_lee_edge_and_comes_to_rest_below() {
     body.position.z += 0.12;
     body.velocity = DVec3::X * 1.2;
     let mut s = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.32);
-    s.ground = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR });
+    s.ground = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR, cover: None });
     let mut world = RigidWorld::new(s).unwrap();
     let before = total_energy(&world);
     run(&mut world, 3.0, 1e-4);
@@ -126,7 +126,7 @@ fn a_row_slides_over_the_mound_and_its_energy_balance_closes() {
         })
         .collect();
     let mut s = setup(BodyShape::from_unit(&unit, MASS), row, MORTAR, 0.32);
-    s.ground = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR });
+    s.ground = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR, cover: None });
     s.sides = Sides::Walls { width: 1.2 };
     let mut world = RigidWorld::new(s).unwrap();
     let start = total_energy(&world);

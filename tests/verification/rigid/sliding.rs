@@ -1,6 +1,7 @@
 //! Static and kinetic friction.
 
-use breakwater::rigid::{BodyShape, Resistance, RigidWorld};
+use breakwater::geometry::profile::Profile;
+use breakwater::rigid::{BodyShape, Cover, Ground, Resistance, RigidWorld};
 use glam::DVec3;
 
 use super::{G, MASS, MORTAR, run, setup, standing, tetrapod};
@@ -63,6 +64,30 @@ fn a_unit_between_both_friction_angles_slides_only_after_an_external_force() {
     let expected = G * (angle.sin() - 0.32 * angle.cos());
     println!("{speed:.3} m/s after the load, then {acceleration:.4} m/s2, expected {expected:.4}");
     assert!(speed > 0.05 && (acceleration / expected - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn a_unit_that_slides_from_the_mound_to_the_bed_is_slowed_by_the_friction_of_each() {
+    let unit = tetrapod();
+    let mut body = standing(&unit, -0.3, 0.0, 0.0);
+    body.velocity = DVec3::X * 1.5;
+    let mut setup = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.5);
+    let profile = Profile::new(vec![[-5.0, 0.0], [0.0, 0.0], [5.0, 0.0]]);
+    let cover = Some(Cover { x: [-5.0, 0.0], material: MORTAR, resistance: 0.2.into() });
+    setup.ground = Some(Ground { profile, terrain: None, material: MORTAR, cover });
+    let mut world = RigidWorld::new(setup).unwrap();
+    // Until 0.1 s, all feet are at x < 0; from 0.32 s to 0.4 s, they are at x > 0. At the start, the unit rocks.
+    let mut deceleration = |start: f64, end: f64| {
+        let wait = start - world.time();
+        run(&mut world, wait, 1e-4);
+        let before = world.states()[0].velocity.x;
+        run(&mut world, end - start, 1e-4);
+        (before - world.states()[0].velocity.x) / (end - start)
+    };
+    let found = [deceleration(0.04, 0.1), deceleration(0.32, 0.4)];
+    println!("deceleration on the mound {:.3} m/s2, on the bed {:.3} m/s2", found[0], found[1]);
+    // The unit hardly rocks: 2 % of theory.
+    assert!((found[0] / (0.2 * G) - 1.0).abs() < 0.02 && (found[1] / (0.5 * G) - 1.0).abs() < 0.02);
 }
 
 #[test]

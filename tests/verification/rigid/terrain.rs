@@ -30,7 +30,10 @@ fn nodes(from: f64, to: f64, count: usize) -> Vec<f64> {
 }
 
 fn on_terrain(setup: RigidSetup, terrain: Arc<Terrain>) -> RigidSetup {
-    RigidSetup { ground: Some(Ground { profile: bed_far_below(), terrain: Some(terrain), material: MORTAR }), ..setup }
+    RigidSetup {
+        ground: Some(Ground { profile: bed_far_below(), terrain: Some(terrain), material: MORTAR, cover: None }),
+        ..setup
+    }
 }
 
 #[test]
@@ -42,7 +45,7 @@ fn a_tetrapod_slides_over_a_terrain_edge_like_over_exact_planes() {
     body.position.z += 0.12;
     body.velocity = DVec3::X * 1.2;
     let base = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.32);
-    let planes = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR });
+    let planes = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR, cover: None });
     let x: Vec<f64> = corners.iter().map(|corner| corner[0]).collect();
     let surface = height_field(&x, &nodes(-0.5, 0.5, 4), |x, _| profile.z(x));
     let mut worlds =
@@ -72,7 +75,7 @@ fn a_ball_oscillates_in_a_terrain_trough_without_loss() {
     let start = DVec3::new(pendulum_length * angle.sin(), 0.0, hollow - pendulum_length * angle.cos());
     let base = setup(ball(radius, 2400.0), vec![BodyState::at_rest(start, DQuat::IDENTITY)], smooth, 0.0);
     let mut world = RigidWorld::new(RigidSetup {
-        ground: Some(Ground { profile: bed_far_below(), terrain: Some(surface), material: smooth }),
+        ground: Some(Ground { profile: bed_far_below(), terrain: Some(surface), material: smooth, cover: None }),
         material: smooth,
         ..base
     })

@@ -1,4 +1,4 @@
-//! Differences between the case of a run and the base case, `cases/fudo/H4.5-slice.json`.
+//! Differences between the case of a run and the base case: `cases/fudo/H4.5-slice.json` with PVC on the whole bed.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,6 +13,12 @@ const BASE: &str = include_str!("../../../cases/fudo/H4.5-slice.json");
 
 /// Key of the friction coefficient between units and mound.
 pub const FRICTION: &str = "friction.mortar-pvc.coefficient";
+
+/// Key of the material of the bed beside the mound. In the experiment it is mortar; most runs were made with PVC.
+pub const BED: &str = "flume.material";
+
+/// Key of the material of the mound. Its default is the material of the bed.
+const MOUND: &str = "flume.mound.material";
 
 /// Key of the set of defaults of the SPH scheme.
 pub const SCHEME: &str = "numerics.scheme";
@@ -70,7 +76,9 @@ pub fn base_friction() -> f64 {
 }
 
 fn base() -> Value {
-    serde_json::from_str(BASE).unwrap_or_default()
+    let mut base: Value = serde_json::from_str(BASE).unwrap_or_default();
+    base["flume"]["material"] = json!("pvc");
+    base
 }
 
 /// Returns true if the domain of a case has open ends.
@@ -125,6 +133,9 @@ fn leaves(case: &Value) -> BTreeMap<String, Value> {
     if let Value::Object(keys) = complete.as_ref().unwrap_or(case) {
         let with_effect = keys.iter().filter(|(key, _)| !WITHOUT_EFFECT.contains(&key.as_str()));
         with_effect.for_each(|(key, value)| collect(key, value, &mut leaves));
+    }
+    if let (Some(bed), None) = (leaves.get(BED).cloned(), leaves.get(MOUND)) {
+        leaves.insert(MOUND.to_owned(), bed);
     }
     leaves
 }
@@ -193,6 +204,15 @@ mod tests {
         assert_eq!(changes(&case).iter().map(|change| change.key.as_str()).collect::<Vec<_>>(), [SCHEME]);
         case["numerics"]["viscosity_alpha"] = json!(0.01);
         assert_eq!(changes(&case).len(), 2);
+    }
+
+    #[test]
+    fn mortar_beside_a_mound_of_pvc_is_one_change() {
+        let mut case: Value = serde_json::from_str(BASE).unwrap();
+        assert_eq!(changes(&case).iter().map(|change| change.key.as_str()).collect::<Vec<_>>(), [BED]);
+        case["flume"]["material"] = json!("pvc");
+        case["flume"]["mound"].as_object_mut().unwrap().remove("material");
+        assert_eq!(changes(&case), []);
     }
 
     #[test]
