@@ -53,7 +53,8 @@ pub(super) fn validate(material: Option<usize>, around: &Surroundings, check: &m
         })
     };
     let on_unit = lookup(unit, unit);
-    let on_ground = if ground == unit { on_unit } else { lookup(unit, ground) };
-    let on_mound = if mound == ground { on_ground } else { lookup(unit, mound) };
+    let mut on = |surface: usize| if surface == unit { on_unit } else { lookup(unit, surface) };
+    let on_ground = on(ground);
+    let on_mound = if mound == ground { on_ground } else { on(mound) };
     Some(Resistances { on_unit: on_unit?, on_ground: on_ground?, on_mound: on_mound? })
 }

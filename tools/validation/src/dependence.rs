@@ -28,7 +28,7 @@ fn groups<'a>(waves: &[&ReferenceWave], results: &'a [Compared]) -> Vec<Group<'a
         let is_alike = |other: &&Compared| other.wave == result.wave && other.dp_m() == result.dp_m();
         let base = results.iter().filter(is_alike).find(|other| other.changes.is_empty());
         let (Some(base), Some(wave)) = (base, waves.iter().position(|wave| *wave == result.wave)) else { continue };
-        let is_friction = matches!(&result.changes[..], [change] if change.key == FRICTION);
+        let is_friction = result.changes.iter().any(|change| change.key == FRICTION);
         if result.changes.is_empty() || is_friction {
             continue;
         }

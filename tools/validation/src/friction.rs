@@ -1,4 +1,4 @@
-//! Friction sweep: mean displacement in runs that differ only in the friction coefficient of the mound.
+//! Friction sweep: mean displacement in runs that differ in the friction coefficient of the mound.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use breakwater::{
 };
 
 use crate::{
-    change::{self, FRICTION},
+    change::{self, BED, Change, FRICTION, SCHEME},
     compared::{Compared, centimetres, millimetres},
     markdown::Page,
 };
@@ -37,13 +37,15 @@ pub fn published(reference: &Path) -> Result<Vec<Published>, OutputError> {
     Ok((0..table.rows()).map(row).collect())
 }
 
-/// Friction coefficient of the mound [-]; `None` if the run also differs from the base case in another input.
-fn friction(result: &Compared) -> Option<f64> {
-    match &result.changes[..] {
-        [] => Some(change::base_friction()),
-        [change] if change.key == FRICTION => change.value.as_f64(),
-        _ => None,
+/// Friction coefficient of the mound [-]; `None` if the run has another scheme, or if it differs from the base case in an
+/// input other than friction, scheme and material of the bed.
+fn friction(result: &Compared, default_scheme: bool) -> Option<f64> {
+    let changed = |key: &str| result.changes.iter().find(|change| change.key == key);
+    let is_other = |change: &Change| ![FRICTION, SCHEME, BED].contains(&change.key.as_str());
+    if changed(SCHEME).is_some() != default_scheme || result.changes.iter().any(is_other) {
+        return None;
     }
+    changed(FRICTION).map_or(Some(change::base_friction()), |change| change.value.as_f64())
 }
 
 /// Adds the figure of the friction sweep to the page, unless every run has the same friction coefficient.
@@ -54,15 +56,16 @@ pub fn add(page: &mut Page, waves: &[&ReferenceWave], results: &[Compared], publ
         spacings.sort_by(f64::total_cmp);
         spacings.dedup();
         let before = lines.len();
-        for dp_m in spacings {
+        for (dp_m, default_scheme) in spacings.iter().flat_map(|dp_m| [(*dp_m, false), (*dp_m, true)]) {
             let alike = results.iter().filter(|result| result.wave == *wave && result.dp_m() == dp_m);
             let mut points: Vec<[f64; 2]> =
-                alike.filter_map(|result| Some([friction(result)?, result.run.mean_m])).collect();
+                alike.filter_map(|result| Some([friction(result, default_scheme)?, result.run.mean_m])).collect();
             if points.len() < 2 {
                 continue;
             }
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let name = format!("{} cm, {} mm", centimetres(wave), millimetres(dp_m));
+            let scheme = if default_scheme { ", default scheme" } else { "" };
+            let name = format!("{} cm, {} mm{scheme}", centimetres(wave), millimetres(dp_m));
             lines.push(Line { name, points, colour: 1 + lines.len() % 5, dots: true, ..Line::default() });
         }
         let is_same = |published: &&Published| (published.height_m - wave.height_m).abs() < 1e-9;
