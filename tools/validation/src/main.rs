@@ -123,6 +123,8 @@ mod tests {
         summary.set_units(moved.iter().enumerate().map(unit).collect(), 0.077);
         summary.write(&dir).unwrap();
         let mut case: Value = serde_json::from_str(include_str!("../../../cases/fudo/H4.5-slice.json")).unwrap();
+        // PVC on the whole bed, as in the base case of the page.
+        case["flume"]["material"] = json!("pvc");
         *case.pointer_mut(change.0).unwrap() = json!(change.1);
         fs::write(dir.join("case.json"), case.to_string()).unwrap();
         dir
