@@ -50,9 +50,9 @@ impl Profile {
         (z1 - z0) / (x1 - x0)
     }
 
-    /// Returns the bed with a trapezoidal mound, and x of the mound's two toes [m]. The mound's crest lies between the two `crest_x` [m] at the level
-    /// `crest_z` [m]; `run_per_rise` is the horizontal run of each slope per unit of rise. `None` if the crest lies
-    /// below the bed, or a slope does not meet the bed inside the profile.
+    /// Returns the bed with a trapezoidal mound, and x of the two toes of the mound [m]. The crest lies between the two
+    /// `crest_x` [m] at the level `crest_z` [m]; `run_per_rise` is the horizontal run of each slope per unit of rise.
+    /// `None` if the crest lies below the bed, or a slope does not meet the bed inside the profile.
     pub fn with_mound(&self, crest_x: [f64; 2], crest_z: f64, run_per_rise: [f64; 2]) -> Option<(Self, [f64; 2])> {
         if self.z(crest_x[0]) >= crest_z || self.z(crest_x[1]) >= crest_z {
             return None;

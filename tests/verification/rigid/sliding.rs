@@ -86,8 +86,8 @@ fn a_unit_that_slides_from_the_mound_to_the_bed_is_slowed_by_the_friction_of_eac
     };
     let found = [deceleration(0.04, 0.1), deceleration(0.32, 0.4)];
     println!("deceleration on the mound {:.3} m/s2, on the bed {:.3} m/s2", found[0], found[1]);
-    // The unit hardly rocks: 2 % of theory.
-    assert!((found[0] / (0.2 * G) - 1.0).abs() < 0.02 && (found[1] / (0.5 * G) - 1.0).abs() < 0.02);
+    // Target: within 1 % of theory, as for a unit on a slope.
+    assert!((found[0] / (0.2 * G) - 1.0).abs() < 0.01 && (found[1] / (0.5 * G) - 1.0).abs() < 0.01);
 }
 
 #[test]
