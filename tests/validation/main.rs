@@ -12,6 +12,6 @@ mod data;
 mod floating_box;
 mod flume_bar;
 mod flume_run_up;
-mod square_cylinder;
 mod three_cubes;
+mod towed_bodies;
 mod wall_pressure;

@@ -138,8 +138,14 @@ fn a_submerged_unit_above_the_bed_has_its_buoyancy() {
 
 /// The buoyancy does not depend on where the unit is between the particles at the start.
 #[test]
+fn a_submerged_unit_has_its_buoyancy_elsewhere_between_the_particles() {
+    above_bed_at([0.15, 0.45, 0.6], 0.09, 0.18, 0.01).assert_below(0.015, 0.01);
+}
+
+#[test]
+#[ignore = "3 minutes on 2 cores: cargo test --release --test verification -- --ignored --nocapture wherever_it_is"]
 fn a_submerged_unit_has_its_buoyancy_wherever_it_is_between_the_particles() {
-    for offset in [[0.9, 0.2, 0.4], [0.6, 0.7, 0.8], [0.15, 0.45, 0.6]] {
+    for offset in [[0.9, 0.2, 0.4], [0.6, 0.7, 0.8]] {
         above_bed_at(offset, 0.09, 0.18, 0.01).assert_below(0.015, 0.01);
     }
 }

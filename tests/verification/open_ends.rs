@@ -106,8 +106,8 @@ fn a_solitary_wave_passes_through_open_ends() {
     // the last value is 1.0 %. Limit 2 %: a tenth of the particle spacing.
     assert!(ratios.iter().all(|ratio| (ratio - 1.0).abs() < 0.02));
     assert!(reflected < 0.03 * height);
-    // Reached: 1.1 to 1.4 % of the height and 0.1 to 0.2 % of the volume. Limits: 3 % of the height is a sixth of the particle
-    // spacing, and 0.5 % of the volume a tenth of the particle spacing in the level.
+    // Reached: 1.1 to 1.4 % of the height and 0.1 to 0.2 % of the volume. Limits: 3 % of the height is a sixth of the
+    // particle spacing, and 0.5 % of the volume a tenth of the particle spacing in the level.
     assert!(volume.abs() < 0.005);
 }
 
