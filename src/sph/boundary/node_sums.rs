@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::sph::lanes::{Lanes, WithLanes};
+use crate::sph::lanes::{Lanes, MAX_LANES, WithLanes};
 use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
 use crate::sph::neighbours::records::Record;
 use crate::sph::parameters::Parameters;
@@ -80,9 +80,12 @@ impl<S: NodeTerms<N, G>, const N: usize, const G: usize> WithLanes for ChunkSums
             } else {
                 self.cluster_sums::<L, false>(cluster, neighbours)
             };
-            let lanes = lanes.map(L::to_array);
+            let mut values = [[0.0; MAX_LANES]; N];
+            for (values, lanes) in values.iter_mut().zip(lanes) {
+                *values = lanes.to_array();
+            }
             for (lane, node) in self.sums[members].iter_mut().enumerate() {
-                *node = S::of_sums(std::array::from_fn(|k| lanes[k][lane]));
+                *node = S::of_sums(std::array::from_fn(|k| values[k][lane]));
             }
         }
     }
@@ -114,7 +117,10 @@ impl<S: NodeTerms<N, G>, const N: usize, const G: usize> ChunkSums<'_, S, N, G> 
             S::add(&mut sums, &known, &Pair { r: [x, y, z], wv, gv }, b);
         }
         let h = kernel.h as f32;
-        let factors = S::factors(kernel.scale(), -kernel.gradient_scale() * h * h, h);
-        std::array::from_fn(|k| sums[k] * splat(factors[k]))
+        // Not `from_fn`, which the compiler does not inline for a long array.
+        for (sum, factor) in sums.iter_mut().zip(S::factors(kernel.scale(), -kernel.gradient_scale() * h * h, h)) {
+            *sum = *sum * splat(factor);
+        }
+        sums
     }
 }

@@ -91,7 +91,9 @@ pub trait Lanes: Real {
 }
 
 /// A computation that is generic over the type of the lanes. Its function `run` must be `#[inline(always)]`, because
-/// only an inlined function is compiled for the instruction set that [`InstructionSet::dispatch`] selects.
+/// only an inlined function is compiled for the instruction set that [`InstructionSet::dispatch`] selects. For the same
+/// reason, loops over pairs must not compute lanes in closures that they pass to functions such as
+/// [`std::array::from_fn`]: sometimes these functions are not inlined, and then each operation is a function call.
 pub trait WithLanes {
     /// Result of the computation.
     type Output;

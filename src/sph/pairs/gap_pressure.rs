@@ -12,7 +12,7 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{pair_loop::PairLoop, rate::Rate};
+use super::{pair_loop::PairLoop, pair_sums::add_to, rate::Rate};
 use crate::sph::lanes::{InstructionSet, Lanes, WithLanes};
 use crate::sph::neighbours::grid::{Bins, Grid};
 use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, Sources, lanes_of};
@@ -108,7 +108,7 @@ impl WithLanes for ChunkPressure<'_> {
             } else {
                 self.accelerations::<L, false>(cluster, neighbours)
             };
-            let [x, y, z] = sum.map(L::to_array);
+            let (x, y, z) = (sum[0].to_array(), sum[1].to_array(), sum[2].to_array());
             let rates = &mut self.rates[cluster.first as usize..][..cluster.len as usize];
             for (lane, rate) in rates.iter_mut().enumerate() {
                 rate.acceleration[0] += x[lane];
@@ -139,12 +139,10 @@ impl ChunkPressure<'_> {
             let is_other = (unit - L::splat(unit_of(&gaps.unit, first, number))).abs();
             let stress = pair_stress(pressure, L::splat(b.pressure), nothing).where_positive(is_other);
             let factor = stress * kernel.gradient_shape(closeness) * L::splat(b.volume);
-            for (sum, r) in sum.iter_mut().zip([x, y, z]) {
-                *sum = factor.mul_add(r, *sum);
-            }
+            add_to(&mut sum, factor, [x, y, z]);
         }
         let density = L::splat(pairs.parameters.tait.rho0 as f32) + lanes_of(cluster, targets, |a| a.excess_density);
         let scale = L::splat(-kernel.gradient_scale()) / density;
-        std::array::from_fn(|k| sum[k] * scale)
+        [sum[0] * scale, sum[1] * scale, sum[2] * scale]
     }
 }

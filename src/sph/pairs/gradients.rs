@@ -11,7 +11,7 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::pair_loop::PairLoop;
-use crate::sph::lanes::{Lanes, WithLanes};
+use crate::sph::lanes::{Lanes, MAX_LANES, WithLanes};
 use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
 use crate::sph::neighbours::records::Record;
 use crate::sph::parameters::Parameters;
@@ -64,33 +64,44 @@ struct Sums {
 }
 
 impl Gradients {
-    /// Returns true if a scheme needs the gradients.
+    /// Returns true if a scheme needs the gradients of density or velocity to compute the rates.
     pub fn are_needed(parameters: &Parameters) -> bool {
-        Self::needs_neighbour_data(parameters) || parameters.shifting.is_some()
-    }
-
-    fn needs_neighbour_data(parameters: &Parameters) -> bool {
         let turbulent = matches!(parameters.viscosity, Viscosity::Laminar { turbulence: Some(_), .. });
         turbulent || parameters.diffusion.kind == DensityDiffusion::Antuono
     }
 
-    /// Computes the gradients at the water particles, which are the first `targets` of the `records`.
+    /// Computes the gradients and the measures of the particle distribution at the water particles, which are the first
+    /// `targets` of the `records`.
     pub fn compute(&mut self, pairs: &PairLoop, lists: &NeighbourLists, records: &[Record], targets: usize) {
+        self.sum::<true>(pairs, lists, records, targets);
+        self.neighbour_data.resize(records.len(), NeighbourData::OF_BOUNDARY);
+        let (of_water, of_boundary) = self.neighbour_data.split_at_mut(targets);
+        let parameters = &pairs.parameters;
+        (of_water, &self.sums, &records[..targets])
+            .into_par_iter()
+            .for_each(|(data, sums, record)| *data = sums.neighbour_data(parameters, record));
+        of_boundary.fill(NeighbourData::OF_BOUNDARY);
+    }
+
+    /// Computes the measures of the particle distribution alone.
+    pub fn compute_order(&mut self, pairs: &PairLoop, lists: &NeighbourLists, records: &[Record], targets: usize) {
+        self.sum::<false>(pairs, lists, records, targets);
+    }
+
+    /// Computes the sums; those over density and velocity only if `FIELDS` is true.
+    fn sum<const FIELDS: bool>(
+        &mut self,
+        pairs: &PairLoop,
+        lists: &NeighbourLists,
+        records: &[Record],
+        targets: usize,
+    ) {
         self.sums.resize(targets, Sums::default());
         self.sums.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (sums, chunk))| {
             let begin = number * CHUNK;
             let targets = &records[begin..begin + sums.len()];
-            lists.instructions().dispatch(ChunkSums { pairs, chunk, targets, records, sums });
+            lists.instructions().dispatch(ChunkSums::<FIELDS> { pairs, chunk, targets, records, sums });
         });
-        if Self::needs_neighbour_data(&pairs.parameters) {
-            self.neighbour_data.resize(records.len(), NeighbourData::OF_BOUNDARY);
-            let (of_water, of_boundary) = self.neighbour_data.split_at_mut(targets);
-            let parameters = &pairs.parameters;
-            (of_water, &self.sums, &records[..targets])
-                .into_par_iter()
-                .for_each(|(data, sums, record)| *data = sums.neighbour_data(parameters, record));
-            of_boundary.fill(NeighbourData::OF_BOUNDARY);
-        }
     }
 
     /// Returns the additional data of each record; empty if the scheme does not need these data.
@@ -147,8 +158,8 @@ impl Sums {
     }
 }
 
-/// Computation of the sums for one chunk of targets.
-struct ChunkSums<'a> {
+/// Computation of the sums for one chunk of targets. If `FIELDS` is false, the sums over density and velocity are zero.
+struct ChunkSums<'a, const FIELDS: bool> {
     pairs: &'a PairLoop,
     chunk: &'a Chunk,
     targets: &'a [Record],
@@ -156,7 +167,7 @@ struct ChunkSums<'a> {
     sums: &'a mut [Sums],
 }
 
-impl WithLanes for ChunkSums<'_> {
+impl<const FIELDS: bool> WithLanes for ChunkSums<'_, FIELDS> {
     type Output = ();
 
     #[inline(always)]
@@ -168,7 +179,10 @@ impl WithLanes for ChunkSums<'_> {
             } else {
                 self.cluster_sums::<L, false>(cluster, neighbours)
             };
-            let lanes = sums.map(L::to_array);
+            let mut lanes = [[0.0; MAX_LANES]; 21];
+            for (lanes, sum) in lanes.iter_mut().zip(sums) {
+                *lanes = sum.to_array();
+            }
             for (lane, sums) in self.sums[members].iter_mut().enumerate() {
                 let sum = |k: usize| lanes[k][lane];
                 *sums = Sums {
@@ -182,7 +196,7 @@ impl WithLanes for ChunkSums<'_> {
     }
 }
 
-impl ChunkSums<'_> {
+impl<const FIELDS: bool> ChunkSums<'_, FIELDS> {
     /// Returns the sums of a cluster in the order of [`Sums`].
     #[inline(always)]
     fn cluster_sums<L: Lanes, const PERIODIC: bool>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; 21] {
@@ -201,21 +215,31 @@ impl ChunkSums<'_> {
             let gv = kernel.gradient_shape(closeness) * splat(b.volume);
             let (gx, gy, gz) = (gv * x, gv * y, gv * z);
             // The sign is minus, because M contains r_ba = -r_ab, and x, y, z are the components of r_ab.
-            let of_moments = [(gx, x), (gy, y), (gz, z), (gx, y), (gx, z), (gy, z)];
-            for (sum, (g, r)) in sums[..6].iter_mut().zip(of_moments) {
-                *sum = *sum - g * r;
+            let of_moments = [gx * x, gy * y, gz * z, gx * y, gx * z, gy * z];
+            for (sum, moment) in sums[..6].iter_mut().zip(of_moments) {
+                *sum = *sum - moment;
             }
             for (sum, g) in sums[6..9].iter_mut().zip([gx, gy, gz]) {
                 *sum += g;
             }
-            let excess = splat(b.excess_density) - excess_a;
-            let [u, v, w]: [L; 3] = std::array::from_fn(|k| splat(b.velocity[k]) - velocity_a[k]);
-            for (f, sums) in [excess, u, v, w].into_iter().zip(sums[9..].chunks_exact_mut(3)) {
-                for (sum, g) in sums.iter_mut().zip([gx, gy, gz]) {
-                    *sum = f.mul_add(g, *sum);
+            if FIELDS {
+                let fields = [
+                    splat(b.excess_density) - excess_a,
+                    splat(b.velocity[0]) - velocity_a[0],
+                    splat(b.velocity[1]) - velocity_a[1],
+                    splat(b.velocity[2]) - velocity_a[2],
+                ];
+                for (f, sums) in fields.into_iter().zip(sums[9..].chunks_exact_mut(3)) {
+                    for (sum, g) in sums.iter_mut().zip([gx, gy, gz]) {
+                        *sum = f.mul_add(g, *sum);
+                    }
                 }
             }
         }
-        sums.map(|sum| sum * splat(kernel.gradient_scale()))
+        // Not `map`, which the compiler does not inline for a long array.
+        for sum in &mut sums {
+            *sum = *sum * splat(kernel.gradient_scale());
+        }
+        sums
     }
 }

@@ -50,8 +50,12 @@ impl PairLoop {
     /// [`split_position`](crate::sph::neighbours::records::split_position).
     #[inline(always)]
     pub(super) fn split_positions<L: Lanes>(&self, cluster: &Cluster, targets: &[Record]) -> [L; 4] {
-        let fields: [fn(&Record) -> f32; 4] = [|r| r.bin_x, |r| r.x, |r| r.y, |r| r.z];
-        fields.map(|f| lanes_of(cluster, targets, f))
+        [
+            lanes_of(cluster, targets, |r: &Record| r.bin_x),
+            lanes_of(cluster, targets, |r: &Record| r.x),
+            lanes_of(cluster, targets, |r: &Record| r.y),
+            lanes_of(cluster, targets, |r: &Record| r.z),
+        ]
     }
 
     /// Returns the vector r_ab [m] from a neighbour b to each member a of a cluster. If `PERIODIC` is true, the vector

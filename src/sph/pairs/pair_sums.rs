@@ -202,7 +202,11 @@ impl<L: Lanes> Sums<L> {
         let [x, y, z] = near.r;
         let g = kernel.gradient_shape(near.closeness);
         let gv = g * splat(b.volume);
-        let v: [L; 3] = std::array::from_fn(|k| a.velocity[k] - splat(b.velocity[k]));
+        let v = [
+            a.velocity[0] - splat(b.velocity[0]),
+            a.velocity[1] - splat(b.velocity[1]),
+            a.velocity[2] - splat(b.velocity[2]),
+        ];
         let v_dot_r = v[0].mul_add(x, v[1].mul_add(y, v[2] * z));
         let excess_b = splat(b.excess_density);
         let rho_b = splat(rho0) + excess_b;
@@ -216,7 +220,8 @@ impl<L: Lanes> Sums<L> {
         }
         if R::TURBULENT {
             let factor = a.density * rho_b * gv;
-            let [xx, yy, zz, xy, xz, yz]: [L; 6] = std::array::from_fn(|k| a.stress[k] + splat(data_b.stress[k]));
+            let total = |k: usize| a.stress[k] + splat(data_b.stress[k]);
+            let (xx, yy, zz, xy, xz, yz) = (total(0), total(1), total(2), total(3), total(4), total(5));
             let along = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
             add_to(&mut self.shear, -factor, along);
         }
@@ -245,8 +250,8 @@ impl<L: Lanes> Sums<L> {
     pub(super) fn rates(&self, constants: &Constants, a: &Members<L>) -> [Rate; MAX_LANES] {
         let scale = L::splat(constants.kernel.gradient_scale());
         let minus_per_mass = -scale / a.density;
-        let [ax, ay, az]: [_; 3] =
-            std::array::from_fn(|k| ((self.force[k] + self.shear[k]) * minus_per_mass).to_array());
+        let acceleration = |k: usize| (self.force[k] + self.shear[k]) * minus_per_mass;
+        let (ax, ay, az) = (acceleration(0).to_array(), acceleration(1).to_array(), acceleration(2).to_array());
         let diffusion_factor = L::splat(constants.diffusion.factor()) * a.diffuses;
         let density = (scale * self.diffusion.mul_add(diffusion_factor, self.compression)).to_array();
         let compression = (scale * self.compression).to_array();
@@ -272,8 +277,6 @@ fn explained_by_gradients<L: Lanes>(a: &Members<L>, near: &Near<L>, b: &Neighbou
 
 /// Adds `factor` times a vector to `sum`.
 #[inline(always)]
-fn add_to<L: Lanes>(sum: &mut [L; 3], factor: L, vector: [L; 3]) {
-    for (sum, component) in sum.iter_mut().zip(vector) {
-        *sum = factor.mul_add(component, *sum);
-    }
+pub(super) fn add_to<L: Lanes>(sum: &mut [L; 3], factor: L, vector: [L; 3]) {
+    *sum = [factor.mul_add(vector[0], sum[0]), factor.mul_add(vector[1], sum[1]), factor.mul_add(vector[2], sum[2])];
 }

@@ -15,7 +15,7 @@ use glam::DVec3;
 
 use super::step::Solver;
 use crate::sph::{
-    pairs::rate::Rate,
+    pairs::{gradients::Gradients, rate::Rate},
     parameters::Parameters,
     particles::{sums::sums, water::Water},
     terms::{density_diffusion::Diffusion, shifting::Shifting, viscosity::Viscosity},
@@ -59,11 +59,13 @@ impl Solver {
         let Parameters { shifting: Some(shifting), own_x: [from, to], tait, gravity, .. } = self.parameters else {
             return 0.0;
         };
+        let mut gradients = Gradients::default();
+        self.compute_order(&mut gradients);
         let [power] = sums(water.len(), |a| {
             if !(from..to).contains(&water.position[a].x) {
                 return [0.0];
             }
-            let disorder = shifting.disorder(&self.gradients.order(a));
+            let disorder = shifting.disorder(&gradients.order(a));
             let velocity = shifting.velocity(f64::from(self.water_rates()[a].approach), disorder);
             let per_change = tait.pressure(water.density[a]) / water.density[a];
             [water.mass[a] * (gravity * velocity.z + per_change * Shifting::density_change(velocity, disorder))]

@@ -48,7 +48,7 @@ pub struct Solver {
     ghosts: GhostNodes,
     /// Water velocities at the ghost nodes; computed only if the wall slip condition needs them.
     ghost_velocities: GhostVelocities,
-    pub(super) gradients: Gradients,
+    gradients: Gradients,
     half: Water,
     half_density: Vec<f64>,
     sorted: Water,
@@ -213,6 +213,11 @@ impl Solver {
         }
     }
 
+    /// Computes the measures of the particle distribution around the water particles from the current records.
+    pub(super) fn compute_order(&self, gradients: &mut Gradients) {
+        gradients.compute_order(&self.pairs, &self.water.lists, &self.records, self.water.rates.len());
+    }
+
     /// Returns the last computed rates of the water, in sorted order.
     pub fn water_rates(&self) -> &[Rate] {
         &self.water.rates
@@ -310,6 +315,11 @@ impl Solver {
     /// Corrector, equations 8.3, 8.4 and 9.2: computes the state at the end of the time step.
     pub fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary) {
         let gravity = DVec3::NEG_Z * self.parameters.gravity;
+        if self.parameters.shifting.is_some() && !Gradients::are_needed(&self.parameters) {
+            let mut gradients = std::mem::take(&mut self.gradients);
+            self.compute_order(&mut gradients);
+            self.gradients = gradients;
+        }
         let (half, grid, gradients) = (&self.half, &self.grid, &self.gradients);
         let Parameters { shifting, lowest_density, own_x: [from, to], .. } = self.parameters;
         (&mut water.position, &mut water.velocity, &mut water.density, &self.water.rates)
