@@ -14,4 +14,5 @@ mod flume_bar;
 mod flume_run_up;
 mod three_cubes;
 mod towed_bodies;
+mod towed_rows;
 mod wall_pressure;

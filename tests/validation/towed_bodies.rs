@@ -1,15 +1,14 @@
 //! Bodies that are towed through a closed tank at a constant speed: a square cylinder in two dimensions, a cube and a
-//! sphere in three, and the row of Tetrapods of the Fudo experiment on a bed under a lid.
+//! sphere in three. The module `towed_rows` tows rows of bodies.
 //!
 //! At a Reynolds number of 22,000, the drag coefficient of the square cylinder is 1.9 to 2.2 and the Strouhal number 0.13
 //! (ERCOFTAC UFR 2-02). That flow is turbulent and three-dimensional. The drag coefficient of a cube is 1.05 (Hoerner
 //! 1965; figure not checked in the original), that of a sphere 0.4 to 0.5 at Reynolds numbers from 1e3 to 1e5 (Roos &
-//! Willmarth 1971, who measured 0.43 at 2000). `tools/openfoam/row` computes the row of Tetrapods.
+//! Willmarth 1971, who measured 0.43 at 2000).
 
 use breakwater::{
-    geometry::{armour_unit::ArmourUnit, axis_box::AxisBox},
+    geometry::axis_box::AxisBox,
     rigid::{BodyState, Load},
-    simulation::flume::unit_setup::particles_of,
     sph::{
         parameters::Parameters,
         particles::{
@@ -29,36 +28,36 @@ use breakwater::{
 };
 use glam::{DQuat, DVec2, DVec3};
 
-const RHO0: f64 = 1000.0;
+pub(super) const RHO0: f64 = 1000.0;
 /// Mean pressure of the water, divided by rho U^2: as at the units of the Fudo experiment.
 const PRESSURE: f64 = 4.0;
 
 /// Bodies of one shape that are towed side by side, and their tank. The bodies reach their speed on a way of half their
 /// size.
-struct Towed {
-    name: &'static str,
-    dimensions: u32,
+pub(super) struct Towed {
+    pub(super) name: &'static str,
+    pub(super) dimensions: u32,
     /// Size of a body along the way [m] and speed [m/s].
-    size: f64,
-    speed: f64,
+    pub(super) size: f64,
+    pub(super) speed: f64,
     /// Speed of sound [m/s].
-    sound: f64,
+    pub(super) sound: f64,
     /// Particle spacing [m].
-    dp: f64,
+    pub(super) dp: f64,
     /// Width and height of the tank [m], and the length of the water in front of the bodies at the start and behind the
     /// end of their way [m].
-    width: f64,
-    height: f64,
-    room: f64,
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) room: f64,
     /// Start of each body, from the point (`room`, 0, 0) [m], and its rotation.
-    places: Vec<(DVec3, DQuat)>,
+    pub(super) places: Vec<(DVec3, DQuat)>,
     /// Boundary particles of a body, and the nearest point of its surface with the distance [m], negative inside. Both
     /// in the axes of the body.
-    particles: Vec<BoundaryParticle>,
-    locate: Box<dyn Fn(DVec3) -> (DVec3, f64) + Send + Sync>,
+    pub(super) particles: Vec<BoundaryParticle>,
+    pub(super) locate: Box<dyn Fn(DVec3) -> (DVec3, f64) + Send + Sync>,
     /// From the times 1 to 4 `size` / `speed`, the bodies move upwards and back by this distance, so that vortices begin
     /// to shed [m].
-    kick: f64,
+    pub(super) kick: f64,
 }
 
 impl Towed {
@@ -104,32 +103,6 @@ impl Towed {
             particles,
             locate: Box::new(move |point| cuboid.locate(point)),
             kick: 0.3,
-        }
-    }
-
-    /// The row of the Fudo experiment on a smooth bed, 0.115 m below a smooth lid: between periodic sides, a unit with
-    /// one leg upstream stands beside a unit with two legs upstream. As in flume cases, the particles of the units have
-    /// half the spacing.
-    fn row(dp: f64, speed: f64) -> Self {
-        let unit = ArmourUnit::tetrapod(0.077, 0.05).unwrap();
-        let place = |y, azimuth| (DVec3::new(0.0, y, unit.standing_height()), unit.standing_rotation(azimuth));
-        Self {
-            name: "row of Tetrapods",
-            dimensions: 3,
-            size: 0.077,
-            speed,
-            // The same for all speeds, as in a flume. If it were proportional to the speed, so would be the viscosity of
-            // the term with alpha, and the drag would be exactly proportional to the square of the speed.
-            sound: 6.0,
-            dp,
-            width: 0.16,
-            height: 0.115,
-            room: 0.35,
-            // The bodies move towards +x, so +x is upstream.
-            places: vec![place(0.04, std::f64::consts::PI), place(0.12, 0.0)],
-            particles: particles_of(&unit, 0.5 * dp),
-            locate: Box::new(move |point| unit.solid().project(point)),
-            kick: 0.0,
         }
     }
 
@@ -203,7 +176,7 @@ impl Towed {
     }
 
     /// Tows the bodies over `travel` [m]; returns the loads after the first `skip` metres.
-    fn tow(&self, travel: f64, skip: f64) -> Vec<Reading> {
+    pub(super) fn tow(&self, travel: f64, skip: f64) -> Vec<Reading> {
         let length = particles_in(travel + 2.0 * self.room, self.dp) * self.dp;
         let (mut water, mut boundary) = self.tank(&self.scheme(), length);
         let margin = DVec3::new(5.0 * self.dp, 0.0, 5.0 * self.dp);
@@ -247,15 +220,15 @@ fn particles_in(length: f64, dp: f64) -> f64 {
 }
 
 /// Loads on the bodies at the start of a time step.
-struct Reading {
+pub(super) struct Reading {
     /// Time and time step [s].
     time: f64,
     dt: f64,
-    loads: Vec<Load>,
+    pub(super) loads: Vec<Load>,
 }
 
 /// Returns the mean of a value over time.
-fn mean(readings: &[Reading], of: impl Fn(&Reading) -> f64) -> f64 {
+pub(super) fn mean(readings: &[Reading], of: impl Fn(&Reading) -> f64) -> f64 {
     let duration: f64 = readings.iter().map(|r| r.dt).sum();
     readings.iter().map(|r| of(r) * r.dt).sum::<f64>() / duration
 }
@@ -336,46 +309,4 @@ fn drag_of_a_cube_and_a_sphere_is_near_the_measured_one() {
     };
     let deviations = [deviation(Towed::cube, 1.0, 1.05), deviation(Towed::sphere, 0.25 * std::f64::consts::PI, 0.45)];
     assert!(deviations.iter().all(|deviation| deviation.abs() < 0.15), "{deviations:?}");
-}
-
-/// Force on a unit of the row: drag and lift [N], and the height of the drag above the bed, if the lift acts at the
-/// centre of the unit [m].
-#[derive(Debug, Clone, Copy)]
-struct Push {
-    drag: f64,
-    lift: f64,
-    height: f64,
-}
-
-/// Tows the row by 0.82 m and returns the mean force on the unit with one leg upstream and on that with two. The mean
-/// begins after 0.39 m, as in `tools/openfoam/row`.
-fn push(dp: f64, speed: f64) -> [Push; 2] {
-    let row = Towed::row(dp, speed);
-    let readings = row.tow(0.82, 0.39);
-    let pushes = [0, 1].map(|unit| {
-        let drag = -mean(&readings, |r| r.loads[unit].force.x);
-        let arm = -mean(&readings, |r| r.loads[unit].torque.y) / drag;
-        Push { drag, lift: mean(&readings, |r| r.loads[unit].force.z), height: row.places[unit].0.z + arm }
-    });
-    let total = 0.5 * (pushes[0].drag + pushes[1].drag);
-    println!("row, dp {dp} m, {speed} m/s: {pushes:.4?}, drag / U^2 {:.2} N s2/m2", total / speed.powi(2));
-    pushes
-}
-
-#[test]
-#[ignore = "80 minutes on one core: \
-    cargo test --release --test validation -- --ignored --nocapture row_of_tetrapods"]
-fn the_push_on_a_row_of_tetrapods_grows_with_the_square_of_the_speed() {
-    // Not yet run with this speed of sound.
-    let speeds = [0.2, 0.39, 0.6];
-    let pushes = speeds.map(|speed| push(0.009, speed));
-    let per_square = |k: usize| (pushes[k][0].drag + pushes[k][1].drag) / speeds[k].powi(2);
-    let middle = (0..3).map(per_square).sum::<f64>() / 3.0;
-    // Target: within 10 % of the mean.
-    assert!((0..3).all(|k| (per_square(k) / middle - 1.0).abs() < 0.1));
-    // Target: within 3 mm of the height with eddies in OpenFOAM, at 0.39 m/s.
-    assert!(pushes[1].iter().zip([0.0266, 0.0270]).all(|(push, height)| (push.height - height).abs() < 0.003));
-    // The targets for drag and lift are missed (table in docs/validation/floating-bodies.md). The lift must at
-    // least point upwards, as in OpenFOAM.
-    assert!(pushes.iter().flatten().all(|push| push.lift > 0.0));
 }
