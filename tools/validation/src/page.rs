@@ -67,7 +67,7 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
         page.add(
             "The runs above use the scheme of the published runs, `numerics.scheme` = `mitsui_2023`. These use the default, \
              `low_dissipation`. None of its constants was chosen by a displacement. The bed beside the mound is mortar, \
-             as in the experiment, unless the units stay on the mound. In the runs above it is PVC, like the mound.",
+             as in the experiment. In the runs above it is PVC, like the mound.",
         );
         add_table(&mut page, &predicted);
     }
