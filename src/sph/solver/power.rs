@@ -8,8 +8,8 @@
 //!
 //! is the power of bed, walls, wavemaker and units. The power of viscosity is the same sum with only the rates caused
 //! by viscosity, plus the power of the acoustic damping, which is a bulk viscosity. The power of diffusion is the sum
-//! with only the rates caused by diffusion, plus the power of particle shifting. Gravity is omitted, because it only converts kinetic energy to potential
-//! energy and back.
+//! with only the rates caused by diffusion, plus the power of particle shifting. Gravity is omitted, because it only
+//! converts kinetic energy to potential energy and back.
 
 use glam::DVec3;
 
