@@ -12,7 +12,7 @@ use super::rate::Rate;
 use crate::sph::lanes::{Lanes, MAX_LANES, WithLanes};
 use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
 use crate::sph::neighbours::records::Record;
-use crate::sph::parameters::{BoundaryCondition, Parameters};
+use crate::sph::parameters::BoundaryCondition;
 use crate::sph::terms::density_diffusion::DensityDiffusion;
 use crate::sph::terms::viscosity::Viscosity;
 use crate::sph::terms::wall_slip::WallSlip;
@@ -68,24 +68,22 @@ impl WithLanes for ChunkRates<'_> {
 impl ChunkRates<'_> {
     #[inline(always)]
     fn run_viscous<L: Lanes, R: Resistance>(self) {
-        let Parameters { diffusion, slip, .. } = self.pairs.parameters;
-        match (diffusion.kind == DensityDiffusion::Antuono, slip == WallSlip::Inviscid) {
-            (false, false) => self.run_terms::<L, R, false, false>(),
-            (true, false) => self.run_terms::<L, R, true, false>(),
-            (false, true) => self.run_terms::<L, R, false, true>(),
-            (true, true) => self.run_terms::<L, R, true, true>(),
+        if self.pairs.parameters.diffusion.kind == DensityDiffusion::Antuono {
+            self.run_terms::<L, R, true>();
+        } else {
+            self.run_terms::<L, R, false>();
         }
     }
 
     #[inline(always)]
-    fn run_terms<L: Lanes, R: Resistance, const ANTUONO: bool, const INVISCID_WALLS: bool>(self) {
+    fn run_terms<L: Lanes, R: Resistance, const ANTUONO: bool>(self) {
         let constants = Constants::new(&self.pairs.parameters);
         for (cluster, neighbours) in self.chunk.clusters() {
             let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
             let rates = if cluster.crosses_sides {
-                self.cluster_rates::<L, R, ANTUONO, INVISCID_WALLS, true>(&constants, cluster, neighbours)
+                self.cluster_rates::<L, R, ANTUONO, true>(&constants, cluster, neighbours)
             } else {
-                self.cluster_rates::<L, R, ANTUONO, INVISCID_WALLS, false>(&constants, cluster, neighbours)
+                self.cluster_rates::<L, R, ANTUONO, false>(&constants, cluster, neighbours)
             };
             self.rates[members].copy_from_slice(&rates[..cluster.len as usize]);
         }
@@ -93,7 +91,7 @@ impl ChunkRates<'_> {
 
     /// Returns the rates of the members of a cluster. In its neighbour list, the water particles come first.
     #[inline(always)]
-    fn cluster_rates<L: Lanes, R: Resistance, const ANTUONO: bool, const INVISCID_WALLS: bool, const PERIODIC: bool>(
+    fn cluster_rates<L: Lanes, R: Resistance, const ANTUONO: bool, const PERIODIC: bool>(
         &self,
         constants: &Constants,
         cluster: &Cluster,
@@ -107,15 +105,15 @@ impl ChunkRates<'_> {
             a.diffuses = self.diffusion_factors::<L, PERIODIC>(constants, cluster, neighbours);
         }
         let mut sums = Sums::zero();
-        if INVISCID_WALLS {
-            let is_water = |&number: &u32| (number as usize) < pairs.water;
-            let viscous = if self.begin < pairs.water { neighbours.partition_point(is_water) } else { 0 };
-            let (viscous, inviscid) = neighbours.split_at(viscous);
-            self.add_neighbours::<L, R, ANTUONO, PERIODIC>(constants, place, &a, viscous, &mut sums);
-            self.add_neighbours::<L, Inviscid, ANTUONO, PERIODIC>(constants, place, &a, inviscid, &mut sums);
-        } else {
-            self.add_neighbours::<L, R, ANTUONO, PERIODIC>(constants, place, &a, neighbours, &mut sums);
-        }
+        let is_water = |&number: &u32| (number as usize) < pairs.water;
+        let viscous = match pairs.parameters.slip {
+            WallSlip::Inviscid if self.begin < pairs.water => neighbours.partition_point(is_water),
+            WallSlip::Inviscid => 0,
+            _ => neighbours.len(),
+        };
+        let (viscous, inviscid) = neighbours.split_at(viscous);
+        self.add_neighbours::<L, R, ANTUONO, PERIODIC>(constants, place, &a, viscous, &mut sums);
+        self.add_neighbours::<L, Inviscid, ANTUONO, PERIODIC>(constants, place, &a, inviscid, &mut sums);
         sums.rates(constants, &a)
     }
 
