@@ -1,5 +1,5 @@
 //! Rows of bodies that are towed side by side on a smooth bed below a smooth lid: the Tetrapods of the Fudo experiment,
-//! and round bars as thick as their legs. `tools/openfoam/row` computes the Tetrapods in a stream.
+//! and round bars as thick as their legs. `tools/openfoam/row` computes both in a stream.
 //!
 //! At Reynolds numbers above 400, a screen of round bars with the open share a of its area loses 0.52 (1 - a^2) / a^2
 //! times the dynamic pressure of the flow in front of it (Blevins 1984, Applied Fluid Dynamics Handbook; the

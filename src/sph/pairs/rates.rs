@@ -105,6 +105,7 @@ impl ChunkRates<'_> {
             a.diffuses = self.diffusion_factors::<L, PERIODIC>(constants, cluster, neighbours);
         }
         let mut sums = Sums::zero();
+        // At inviscid walls, only pairs of two water particles are viscous. Otherwise, all pairs are.
         let is_water = |&number: &u32| (number as usize) < pairs.water;
         let viscous = match pairs.parameters.slip {
             WallSlip::Inviscid if self.begin < pairs.water => neighbours.partition_point(is_water),
