@@ -100,13 +100,12 @@ fn drag_share(scheme: Scheme, height: f64, dp: f64) -> f64 {
 }
 
 #[test]
-fn drag_over_the_mound_needs_free_slip() {
-    let [no_slip, free_slip, inviscid] = [NO_SLIP, FREE_SLIP, INVISCID].map(|scheme| drag_share(scheme, 0.045, 0.016));
-    // Reached drag shares: 0.59 with no slip, 0.89 with free slip, 0.94 with inviscid walls. The limits for free slip
-    // and inviscid walls are the reached values minus 0.03, the difference between particle spacings of 14 and 16 mm.
-    // The drag on a unit is known to 10 %, so a run that loses 40 % of the drag is not useful.
-    assert!(free_slip > 0.86 && free_slip < 1.03 && no_slip < 0.7);
-    assert!(inviscid > 0.91 && inviscid < 1.03);
+fn drag_over_the_mound_needs_slip() {
+    let [no_slip, default] = [NO_SLIP, DEFAULT].map(|scheme| drag_share(scheme, 0.045, 0.016));
+    // Reached: 0.59 with no slip, 0.94 with the default scheme. The limit for the default scheme is the reached value
+    // minus 0.03, the difference between particle spacings of 14 and 16 mm. The drag on a unit is known to 10 %, so a
+    // run that loses 40 % of the drag is not useful.
+    assert!(no_slip < 0.7 && default > 0.91 && default < 1.03);
 }
 
 /// Computes the three waves with each combination of slip and viscosity.

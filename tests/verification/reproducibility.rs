@@ -63,7 +63,7 @@ fn one_two_and_three_threads_give_the_same_bits() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut simulation = simulation(&case);
-            run_steps(&mut simulation, 100);
+            run_steps(&mut simulation, 60);
             bits(&simulation)
         })
     };

@@ -141,19 +141,18 @@ fn finer_cells_and_more_layers_change_the_crests_little() {
 }
 
 #[test]
-fn waves_over_the_mound_agree_on_two_grids() {
+fn the_highest_wave_over_the_mound_agrees_on_two_grids() {
     let bed = fudo_bed().with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap().0;
-    for expected in [&EXPECTED[0], &EXPECTED[2]] {
-        let [coarse, fine] = [0.05, 0.025].map(|cell_m| fudo(bed.clone(), expected.height_m, cell_m, 2));
-        assert!(coarse.volume_error < 1e-10 && fine.volume_error < 1e-10);
-        let crests = [coarse.crest(7).0, fine.crest(7).0];
-        let speeds = [largest_velocity(&coarse, 39.0), largest_velocity(&fine, 39.0)];
-        println!("H = {} m: crests over the mound {crests:.4?} m, u {speeds:.3?} m/s", expected.height_m);
-        // Limit 5 % for crests and velocities: the flanks of the mound are two cells long on the coarse grid.
-        assert!((crests[0] / crests[1] - 1.0).abs() < 0.05 && (speeds[0] / speeds[1] - 1.0).abs() < 0.05);
-        // The mound reflects and shoals the wave only a little, so the crest level is near the level without a mound.
-        assert!((crests[1] / expected.crests_m[7] - 1.0).abs() < 0.2);
-    }
+    let expected = &EXPECTED[2];
+    let [coarse, fine] = [0.05, 0.025].map(|cell_m| fudo(bed.clone(), expected.height_m, cell_m, 2));
+    assert!(coarse.volume_error < 1e-10 && fine.volume_error < 1e-10);
+    let crests = [coarse.crest(7).0, fine.crest(7).0];
+    let speeds = [largest_velocity(&coarse, 39.0), largest_velocity(&fine, 39.0)];
+    println!("H = {} m: crests over the mound {crests:.4?} m, u {speeds:.3?} m/s", expected.height_m);
+    // Limit 5 % for crests and velocities: the flanks of the mound are two cells long on the coarse grid.
+    assert!((crests[0] / crests[1] - 1.0).abs() < 0.05 && (speeds[0] / speeds[1] - 1.0).abs() < 0.05);
+    // The mound reflects and shoals the wave only a little, so the crest level is near the level without a mound.
+    assert!((crests[1] / expected.crests_m[7] - 1.0).abs() < 0.2);
 }
 
 #[test]
