@@ -23,6 +23,9 @@ const MOUND: &str = "flume.mound.material";
 /// Key of the set of defaults of the SPH scheme.
 pub const SCHEME: &str = "numerics.scheme";
 
+/// Key of the number of units.
+pub const COUNT: &str = "units.count";
+
 /// Keys that do not change how the units move.
 const WITHOUT_EFFECT: [&str; 8] =
     ["$schema", "title", "assumptions", "reference", "output", "gauges", "breakage", "stop"];
@@ -31,7 +34,7 @@ const WITHOUT_EFFECT: [&str; 8] =
 /// number is not listed, because doubling the time step changes the forces by less than 2 %.
 const SHOWN_ELSEWHERE: [&str; 3] = ["domain.dp_m", "numerics.cfl", "wave.height_m"];
 
-/// Keys that must change with the number of units. If `units.count` is a change, these keys are not listed.
+/// Keys that must change with the number of units. If [`COUNT`] is a change, these keys are not listed.
 const OF_ROW: [&str; 3] = ["domain.sides", "domain.width_m", "units.pitch_m"];
 
 /// Keys of a run with open ends that are not listed as changes. Such a domain is shorter; the page names these runs
@@ -98,7 +101,7 @@ pub fn changes(case: &Value) -> Vec<Change> {
         .filter(|key| !SHOWN_ELSEWHERE.contains(&key.as_str()) && value(&base, key) != value(&of_case, key))
         .map(|key| Change { key: key.clone(), base: value(&base, key), value: value(&of_case, key) })
         .collect();
-    if changes.iter().any(|change| change.key == "units.count") {
+    if changes.iter().any(|change| change.key == COUNT) {
         changes.retain(|change| !OF_ROW.contains(&change.key.as_str()));
     }
     if has_open_ends(case) {

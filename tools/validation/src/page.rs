@@ -9,7 +9,7 @@ use breakwater::{
 };
 
 use crate::{
-    change::{BED, SCHEME, changes, has_open_ends},
+    change::{BED, COUNT, SCHEME, changes, has_open_ends},
     compared::{Compared, centimetres, millimetres},
     dependence, figures,
     friction::{self, Published},
@@ -41,12 +41,15 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
         }));
     }
     let mut base: Vec<&Compared> = results.iter().filter(|result| result.changes.is_empty()).collect();
-    let by_default_scheme = |result: &&Compared| {
-        let keys = result.changes.iter().map(|change| change.key.as_str());
-        keys.filter(|key| *key != BED).eq([SCHEME])
+    // The slices with the default scheme, and these with the rows of fifteen units.
+    let by_default_scheme = |result: &&Compared, with_rows: bool| {
+        let mut keys = result.changes.iter().map(|change| change.key.as_str());
+        keys.clone().any(|key| key == SCHEME)
+            && keys.all(|key| [BED, SCHEME].contains(&key) || (with_rows && key == COUNT))
     };
-    let mut predicted: Vec<&Compared> = results.iter().filter(by_default_scheme).collect();
-    for compared in [&mut base, &mut predicted] {
+    let [mut predicted, mut with_rows] = [false, true]
+        .map(|with_rows| results.iter().filter(|result| by_default_scheme(result, with_rows)).collect::<Vec<_>>());
+    for compared in [&mut base, &mut predicted, &mut with_rows] {
         compared.sort_by(|a, b| a.wave.height_m.total_cmp(&b.wave.height_m).then(b.dp_m().total_cmp(&a.dp_m())));
     }
     let waves: Vec<&ReferenceWave> = comparison.waves.iter().map(|wave| &wave.reference).collect();
@@ -55,12 +58,12 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
     page.add(&format!("# Validation: {}", comparison.title));
     page.add(&verdict(&waves, &predicted));
     page.add(
-        "The runs of breakwater have two units between periodic sides, which represent the inner units of the row of fifteen.\n\
+        "The runs of breakwater with two units between periodic sides represent the inner units of the row of fifteen.\n\
          They use the default scheme, `low_dissipation`; none of its constants was chosen by a displacement.\n\
          The published runs were made with DualSPHysics and Project Chrono, for all fifteen units and the same particle spacing.\n\
          A unit is damaged when it has moved further than its height, 0.077 m.",
     );
-    add_table(&mut page, &predicted);
+    add_table(&mut page, &with_rows);
     figures::add(&mut page, &waves, &predicted);
     friction::add(&mut page, &waves, &results, frictions);
     if !base.is_empty() {
@@ -146,9 +149,12 @@ fn add_table(page: &mut Page, base: &[&Compared]) {
     let head = [
         "wave height [cm]",
         "particle spacing [mm]",
+        "units",
         "measured [m]",
         "breakwater [m]",
         "deviation of breakwater [%]",
+        "measured, inner units [m]",
+        "deviation from the inner units [%]",
         "deviation of the published run [%]",
         "damaged, measured / breakwater [%]",
     ];
@@ -156,20 +162,25 @@ fn add_table(page: &mut Page, base: &[&Compared]) {
         let (wave, run) = (result.wave, result.run);
         let published = wave.convergence.iter().find(|other| (other.dp_m - result.dp_m()).abs() < 1e-9);
         let percent = |ratio: f64| short(100.0 * ratio, 0);
+        let of_slice = |text: String| if run.is_slice_of(wave) { text } else { String::new() };
         vec![
             centimetres(wave),
             millimetres(result.dp_m()),
+            run.summary.units.len().to_string(),
             format!("{:.3}", wave.measured_mean_m()),
             format!("{:.3}", run.mean_m),
             signed(run.deviation_percent),
+            of_slice(format!("{:.3}", wave.measured_inner_mean_m())),
+            of_slice(signed(run.inner_deviation_percent)),
             published.map(|published| signed(published.deviation_percent)).unwrap_or_default(),
             format!("{} / {}", percent(wave.measured_damage_ratio()), percent(run.damage_ratio)),
         ]
     };
     page.table(&head.map(str::to_owned), &base.iter().map(row).collect::<Vec<_>>());
     page.add(
-        "Columns in m give the mean displacement of all units; deviations are relative to the measured mean. An empty \
-         cell means that there is no published run.",
+        "Columns in m give mean displacements; deviations are relative to the measured mean. The inner units of the experiment \
+         are those that do not stand at a side wall; only runs with two units are compared with them. Published runs have \
+         no spacing of 14 mm.",
     );
     let with_open_ends = |result: &&&Compared| result.has_open_ends;
     let names: Vec<String> =
