@@ -41,7 +41,7 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
         }));
     }
     let mut base: Vec<&Compared> = results.iter().filter(|result| result.changes.is_empty()).collect();
-    // The slices with the default scheme, and these with the rows of fifteen units.
+    // The slices with the default scheme; then the same together with the rows of fifteen units.
     let by_default_scheme = |result: &&Compared, with_rows: bool| {
         let mut keys = result.changes.iter().map(|change| change.key.as_str());
         keys.clone().any(|key| key == SCHEME)
@@ -178,9 +178,9 @@ fn add_table(page: &mut Page, base: &[&Compared]) {
     };
     page.table(&head.map(str::to_owned), &base.iter().map(row).collect::<Vec<_>>());
     page.add(
-        "Columns in m give mean displacements; deviations are relative to the measured mean. The inner units of the experiment \
-         are those that do not stand at a side wall; only runs with two units are compared with them. Published runs have \
-         no spacing of 14 mm.",
+        "Columns in m give mean displacements; deviations are relative to the measured mean. The inner units of the \
+         experiment are those that do not stand at a side wall; only runs with two units are compared with them. There \
+         are no published runs at 14 mm.",
     );
     let with_open_ends = |result: &&&Compared| result.has_open_ends;
     let names: Vec<String> =
