@@ -37,8 +37,8 @@ const SHOWN_ELSEWHERE: [&str; 3] = ["domain.dp_m", "numerics.cfl", "wave.height_
 /// Keys that must change with the number of units. If [`COUNT`] is a change, these keys are not listed.
 const OF_ROW: [&str; 3] = ["domain.sides", "domain.width_m", "units.pitch_m"];
 
-/// Keys of a run with open ends that are not listed as changes. Such a domain is shorter; the page names these runs
-/// below its table.
+/// Keys of a run with open ends that are not listed as changes. Such a domain is shorter; the tables have a column for
+/// it.
 const OF_OPEN_ENDS: [&str; 2] = ["wavemaker.kind", "domain.x_m"];
 
 /// A key whose value differs from the base case.
@@ -84,9 +84,10 @@ fn base() -> Value {
     base
 }
 
-/// Returns true if the domain of a case has open ends.
-pub fn has_open_ends(case: &Value) -> bool {
-    case["wavemaker"]["kind"] == "open_ends"
+/// Returns the places of the open ends of a domain [m], or None if it has none.
+pub fn open_ends(case: &Value) -> Option<[f64; 2]> {
+    let ends = serde_json::from_value(case["domain"]["x_m"].clone()).ok();
+    ends.filter(|_| case["wavemaker"]["kind"] == "open_ends")
 }
 
 /// Changes of a case from the base case, sorted by key. If the case has another scheme, its defaults are not listed.
@@ -104,7 +105,7 @@ pub fn changes(case: &Value) -> Vec<Change> {
     if changes.iter().any(|change| change.key == COUNT) {
         changes.retain(|change| !OF_ROW.contains(&change.key.as_str()));
     }
-    if has_open_ends(case) {
+    if open_ends(case).is_some() {
         changes.retain(|change| !OF_OPEN_ENDS.contains(&change.key.as_str()));
     }
     changes

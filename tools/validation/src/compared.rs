@@ -15,8 +15,8 @@ pub struct Compared<'a> {
     pub run: &'a RunResult,
     /// Changes from the base case.
     pub changes: Vec<Change>,
-    /// True if the run has open ends, which are not listed as changes.
-    pub has_open_ends: bool,
+    /// The places of the open ends [m], which are not listed as changes. None if the domain has a wavemaker.
+    pub open_ends: Option<[f64; 2]>,
 }
 
 impl Compared<'_> {

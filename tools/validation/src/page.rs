@@ -9,7 +9,7 @@ use breakwater::{
 };
 
 use crate::{
-    change::{BED, COUNT, SCHEME, changes, has_open_ends},
+    change::{BED, COUNT, SCHEME, changes, open_ends},
     compared::{Compared, centimetres, millimetres},
     dependence, figures,
     friction::{self, Published},
@@ -37,7 +37,7 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
             wave,
             run,
             changes: case_of(run).map(changes).unwrap_or_default(),
-            has_open_ends: case_of(run).is_some_and(has_open_ends),
+            open_ends: case_of(run).and_then(open_ends),
         }));
     }
     let mut base: Vec<&Compared> = results.iter().filter(|result| result.changes.is_empty()).collect();
@@ -149,6 +149,7 @@ fn add_table(page: &mut Page, base: &[&Compared]) {
     let head = [
         "wave height [cm]",
         "particle spacing [mm]",
+        "open ends at x [m]",
         "units",
         "measured [m]",
         "breakwater [m]",
@@ -166,6 +167,7 @@ fn add_table(page: &mut Page, base: &[&Compared]) {
         vec![
             centimetres(wave),
             millimetres(result.dp_m()),
+            result.open_ends.map(|ends| ends.map(|x| format!("{x:.2}")).join(" to ")).unwrap_or_default(),
             run.summary.units.len().to_string(),
             format!("{:.3}", wave.measured_mean_m()),
             format!("{:.3}", run.mean_m),
@@ -180,17 +182,6 @@ fn add_table(page: &mut Page, base: &[&Compared]) {
     page.add(
         "Columns in m give mean displacements; deviations are relative to the measured mean. The inner units of the \
          experiment are those that do not stand at a side wall; only runs with two units are compared with them. There \
-         are no published runs at 14 mm.",
+         are no published runs at 14 mm. Without open ends, the domain is from 36.5 to 41 m and has a wavemaker.",
     );
-    let with_open_ends = |result: &&&Compared| result.has_open_ends;
-    let names: Vec<String> =
-        base.iter().filter(with_open_ends).map(|result| format!("`{}`", result.run.name)).collect();
-    if names.len() == base.len() {
-        page.add("The particle domain of these runs has open ends.");
-    } else if !names.is_empty() {
-        page.add(&format!(
-            "These runs have a shorter particle domain than the other runs, with open ends: {}.",
-            joined(&names)
-        ));
-    }
 }
