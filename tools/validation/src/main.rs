@@ -166,9 +166,9 @@ mod tests {
             "For the 2.6 cm wave, breakwater is on the unsafe side:",
             "For these waves at the finest spacing, 0 and 100 % of the units are damaged in breakwater, and 80 and \
              100 % in the experiment.",
-            "| 4.5 | 9 | 2 | 0.242 | 0.245 | +1.1 | 0.239 | +2.5 | \u{2212}32.5 | 100 / 100 |",
+            "| 4.5 | 9 |  | 2 | 0.242 | 0.245 | +1.1 | 0.239 | +2.5 | \u{2212}32.5 | 100 / 100 |",
             "| `mound.crest_width_m` | 0.32 | 0.28 | 9 |  | \u{2212}19.2 |",
-            "| 4.5 | 9 | 2 | 0.242 | 0.260 | +7.3 | 0.239 | +8.8 | \u{2212}32.5 | 100 / 100 |",
+            "| 4.5 | 9 |  | 2 | 0.242 | 0.260 | +7.3 | 0.239 | +8.8 | \u{2212}32.5 | 100 / 100 |",
             "(fudo-friction.svg)",
         ] {
             assert!(page.contains(words), "{words} in\n{page}");
