@@ -43,8 +43,9 @@ pub struct Parameters {
     pub slip: WallSlip,
     /// True if, under mDBC, pressure acts on units through gaps that are too narrow for water particles.
     pub gap_pressure: bool,
-    /// Lowest density of the water [kg/m3]: water under stronger suction fills with air. 0 without a limit.
-    pub lowest_density: f64,
+    /// Lowest density of the water and of boundary particles that pull at it [kg/m3]: water under stronger suction fills
+    /// with air. `None` as published: the suction in the water has no limit, and boundaries do not pull.
+    pub lowest_density: Option<f64>,
     /// Damping of sound, if any.
     pub acoustic_damping: Option<AcousticDamping>,
     /// Particle shifting, if any.
@@ -71,7 +72,7 @@ impl Parameters {
             boundary: BoundaryCondition::ModifiedDynamic,
             slip: WallSlip::Original,
             gap_pressure: true,
-            lowest_density: 0.0,
+            lowest_density: None,
             acoustic_damping: None,
             shifting: None,
             periodic_width,

@@ -253,7 +253,9 @@ fn balance_over_a_bed(wall_friction: f64) -> [f64; 2] {
 fn the_energy_balance_with_wall_friction_closes() {
     let [smooth, rough] = [0.0, 0.05].map(balance_over_a_bed);
     assert_eq!(smooth[0], 0.0);
-    // Limit: 1 % of the friction. The balance uses the powers at the start of each time step. The duration ends before
-    // the front folds over, because the balance does not count what impacts and the limit of the suction take.
-    assert!(rough[0] > 0.02 && rough[1].abs() < 0.01 * rough[0], "{smooth:?} {rough:?}");
+    // Limit 2e-4 of the initial energy without friction; reached 9e-5. The balance does not count what impacts and the
+    // limit of the suction take. The duration ends before the front folds over.
+    assert!(smooth[1].abs() < 2e-4, "{smooth:?}");
+    // Limit for what friction adds to this: 1 % of the friction. The balance uses the powers at the start of each step.
+    assert!(rough[0] > 0.02 && (rough[1] - smooth[1]).abs() < 0.01 * rough[0], "{smooth:?} {rough:?}");
 }

@@ -33,8 +33,9 @@ pub struct NumericsFile {
     /// slip condition of the walls is `original`, as in Mitsui et al.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub acoustic_damping: Option<f64>,
-    /// Largest suction in the water, divided by rho0 g h [-]. Water under more suction fills with air. Default: 1, but
-    /// no limit if the slip condition of the walls is `original`, as in Mitsui et al.
+    /// Largest suction in the water and at walls, divided by rho0 g h [-]. Water under more suction fills with air.
+    /// Default: 1. If the slip condition of the walls is `original`, there is no default: no limit in the water, and no
+    /// suction at walls, as in Mitsui et al.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub suction_limit: Option<f64>,
     /// Coefficient A of particle shifting [-]: 0 for no shifting. Default: 2; scheme `mitsui_2023`: 0.

@@ -36,7 +36,8 @@ pub struct Numerics {
     pub delta: f64,
     /// Coefficient alpha_2 of the acoustic damping [-]; 0 for no damping.
     pub acoustic_damping: f64,
-    /// Largest suction in the water, divided by rho0 g h [-]; `None` without a limit.
+    /// Largest suction in the water and at walls, divided by rho0 g h [-]. `None`: no limit in the water, and no suction
+    /// at walls.
     pub suction_limit: Option<f64>,
     /// Coefficient A of particle shifting [-]; 0 for no shifting.
     pub shifting: f64,

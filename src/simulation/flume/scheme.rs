@@ -48,7 +48,7 @@ pub fn parameters(case: &Case) -> Parameters {
         diffusion: Diffusion::new(diffusion, numerics.delta, numerics.h, &tait, fluid.gravity),
         lowest_density: numerics
             .suction_limit
-            .map_or(0.0, |limit| tait.density_under_suction(limit, fluid.gravity, numerics.h)),
+            .map(|limit| tait.density_under_suction(limit, fluid.gravity, numerics.h)),
         tait,
         slip: match numerics.wall_slip {
             case::WallSlip::Original => WallSlip::Original,

@@ -15,7 +15,12 @@
 //! also uses this fallback for thin sheets of water on a dry bed, where all water lies between node and boundary. In
 //! such a sheet, a gradient fitted to one or two layers of particles would be extrapolated far behind the sheet, and
 //! its errors would drive the sheet apart. If a node has no neighbours, its boundary particle has the reference density
-//! rho0. No boundary density is lower than rho0, because a wall exerts pressure on the water but no suction.
+//! rho0.
+//!
+//! As published, no boundary density is lower than rho0, so that a wall exerts pressure on the water but no suction. If
+//! the suction in the water has a limit, a wall also pulls at water that is attached to it: where the fitted gradient is
+//! trusted and the mean density around the node is below rho0. The density of the wall is at least this mean. Without
+//! this condition, a wall above the surface would pull still water upwards, by the extrapolated hydrostatic gradient.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -213,15 +218,17 @@ impl NodeSums {
         let back = -2.0 * to_surface / parameters.kernel.h;
         let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
         let above_centroid = back.z - f64::from(self.value[3]) / occupied;
-        let mean = f64::from(self.value_f) / occupied + hydrostatic * above_centroid * parameters.kernel.h;
+        let around = f64::from(self.value_f) / occupied;
+        let mean = around + hydrostatic * above_centroid * parameters.kernel.h;
         let trust = self.trust(to_surface);
         let fitted = || self.value_and_gradient(f64::from(self.value_f), self.first_f.map(f64::from));
         let excess = match (trust > 0.0).then(fitted).flatten() {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
-        // A wall exerts no suction: air enters between the wall and water that separates from the wall.
-        rho0 + excess.max(0.0)
+        // A wall pulls no more than the water around the node. A thin sheet does not pull, because air enters behind it.
+        let lowest = parameters.lowest_density.map_or(0.0, |density| trust * around.clamp(density - rho0, 0.0));
+        rho0 + excess.max(lowest)
     }
 
     /// Returns the trust in the fitted gradient, from 0 (only the fallback) to 1 (only the four equations);
@@ -313,6 +320,30 @@ mod tests {
         let [a, b, c, d] = sums.weights().unwrap();
         // Limit 1e-12: rounding errors of two solutions.
         assert!((a * value + b * first[0] + c * first[1] + d * first[2] - f).abs() < 1e-12);
+    }
+
+    #[test]
+    fn walls_pull_at_attached_water_that_is_under_suction() {
+        let mut parameters = Parameters::published(0.01, 0.02, 30.0, 0.0, None);
+        let (rho0, bed) = (parameters.tait.rho0, DVec3::new(0.0, 0.0, 0.005));
+        for (lowest, densities) in [(None, [0.0; 3]), (Some(rho0 - 2.0), [-2.0, -1.0, 0.0])] {
+            parameters.lowest_density = lowest;
+            // Deep water, a sheet between deep and thin, and a thin sheet.
+            for (z, expected) in [0.3, -0.15, -0.5].into_iter().zip(densities) {
+                let density = layer(z, 0.74, -3.0).density_at(&parameters, bed);
+                // Limit 1e-4: rounding of the sums, which are numbers of 32 bits.
+                assert!((density - rho0 - expected).abs() < 1e-4, "{lowest:?}, {z}: {density}");
+            }
+        }
+        // Weaker suction than the limit is not changed.
+        let sums = layer(0.3, 0.74, -1.0);
+        assert!((sums.density_at(&parameters, bed) - rho0 + 1.0).abs() < 1e-4);
+        // The gradient lowers the density towards the boundary. It is not lower than the mean around the node, so
+        // there is no suction if this mean is above rho0.
+        for (mean, expected) in [(-1.0, -1.0), (0.5, 0.0)] {
+            let sums = NodeSums { value_f: 0.3 * mean, first_f: [0.0, 0.0, 2.0], ..sums };
+            assert!((sums.density_at(&parameters, bed) - rho0 - expected).abs() < 1e-4);
+        }
     }
 
     #[test]

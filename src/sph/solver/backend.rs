@@ -198,7 +198,7 @@ pub fn unsupported_on_gpu(parameters: &Parameters) -> Option<&'static str> {
     if !parameters.gap_pressure {
         return Some("units without gap pressure (numerics.gap_pressure = false)");
     }
-    if parameters.lowest_density > 0.0 {
+    if parameters.lowest_density.is_some() {
         return Some("a limit of the suction (numerics.suction_limit)");
     }
     if parameters.acoustic_damping.is_some() {

@@ -322,6 +322,7 @@ impl Solver {
         }
         let (half, grid, gradients) = (&self.half, &self.grid, &self.gradients);
         let Parameters { shifting, lowest_density, own_x: [from, to], .. } = self.parameters;
+        let lowest_density = lowest_density.unwrap_or(0.0);
         (&mut water.position, &mut water.velocity, &mut water.density, &self.water.rates)
             .into_par_iter()
             .enumerate()
