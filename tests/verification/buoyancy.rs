@@ -124,8 +124,7 @@ fn a_submerged_unit_has_its_buoyancy() {
 #[ignore = "up to 25 minutes on 2 cores: \
     cargo test --release --test verification -- --ignored --nocapture a_submerged_unit"]
 fn a_submerged_unit_has_its_buoyancy_at_all_resolutions() {
-    // The aim is 1 %. Reached: 1.1 % at 0.009 m above the bed, at most 0.4 % otherwise; 0.1 % at 0.005 m on
-    // the bed, not yet run above it.
+    // The aim is 1 %. Reached: 1.1 % at 0.009 m above the bed, at most 0.4 % otherwise.
     for dp in [0.01, 0.009, 0.007, 0.005] {
         submerged(dp).into_iter().for_each(|deviation| deviation.assert_below(0.015, 0.01));
     }
