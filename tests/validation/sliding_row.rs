@@ -5,6 +5,9 @@
 //! Drag and lift are proportional to the square of the relative velocity. The pressure gradient and the added mass are
 //! those of Morison et al. (1950); friction is that of Coulomb. One block stands for both units, because the units touch
 //! each other.
+//!
+//! The block is a rough estimate: the row does not slow the water, the added mass is that of a unit alone, and the block
+//! has its whole buoyancy also where its top is above the water. Beyond 0.16 m, the units would leave the crest.
 
 use std::sync::Arc;
 
@@ -15,12 +18,12 @@ use serde_json::Value;
 const CREST_Z: f64 = 0.717;
 /// Friction coefficient, as published [-].
 const FRICTION: f64 = 0.32;
-/// Measured mean displacement of the 2.6 cm wave [m].
-const MEASURED: f64 = 0.107;
+/// Measured mean displacement of the inner units for the 2.6 cm wave [m].
+const MEASURED: f64 = 0.095;
 
 /// Mass of a unit [kg], and that of the water that it displaces.
 const MASS: f64 = 0.3;
-const DISPLACED: f64 = 0.126;
+const DISPLACED: f64 = 0.1276;
 /// Added mass of a Tetrapod in potential flow (`tools/potential-flow/tetrapod`) [kg].
 const ADDED: f64 = 0.622 * DISPLACED;
 
@@ -34,8 +37,9 @@ struct Push {
 impl Push {
     const SPEED: f64 = 0.39;
     const OPENFOAM: Self = Self { drag: 0.464, lift: 0.16 };
-    /// breakwater with a particle spacing of 9 mm.
-    const PARTICLES: Self = Self { drag: 0.694, lift: 0.065 };
+    /// breakwater with a particle spacing of 9 mm, and of 14 mm.
+    const FINE: Self = Self { drag: 0.694, lift: 0.065 };
+    const COARSE: Self = Self { drag: 0.487, lift: 0.01 };
 
     /// Multiplies the drag.
     fn with_more_drag(self, factor: f64) -> Self {
@@ -103,15 +107,16 @@ impl Stream {
 #[test]
 fn published_inputs_hardly_move_a_block() {
     let stream = Stream::over_crest(CREST_Z);
-    // OpenFOAM's drag is too small: by a fifth for a round cylinder, and for round bars, the measured loss is 1.58 times
-    // as large.
-    let way = [1.0, 1.2, 1.58].map(|factor| stream.pushes(Push::OPENFOAM.with_more_drag(factor), FRICTION));
-    let particles = stream.pushes(Push::PARTICLES, FRICTION);
-    println!("way of a block with the drag of OpenFOAM times 1, 1.2 and 1.58: {way:.3?} m; 9 mm: {particles:.3} m");
-    // Reached: 0.000, 0.010, 0.064 m; 0.041 m. In the particle simulation with 9 mm, the units move 0.061 m. So the block
-    // is good enough to show that no drag in this range gives the measured displacement.
-    assert!(way.is_sorted() && way[2] < 0.7 * MEASURED, "{way:?}");
-    assert!((particles / 0.061 - 1.0).abs() < 0.4, "{particles}");
+    // OpenFOAM's drag is too small: the measured drag of a round cylinder is 1.25 times as large, and the measured loss
+    // of round bars is 1.58 times as large.
+    let way = [1.0, 1.25, 1.58].map(|factor| stream.pushes(Push::OPENFOAM.with_more_drag(factor), FRICTION));
+    let fine = stream.pushes(Push::FINE, FRICTION);
+    println!("way of a block with the drag of OpenFOAM times 1, 1.25 and 1.58: {way:.3?} m; 9 mm: {fine:.3} m");
+    // Reached: 0.000, 0.018 and 0.065 m; 0.043 m. In the particle simulation with 9 mm, the units move 0.061 m, so the block moves
+    // a third less. The limit, 0.8 times the measured displacement, contains this error for the second factor, but not
+    // for the last one.
+    assert!(way.is_sorted() && way[1] < 0.5 * MEASURED && way[2] < 0.8 * MEASURED, "{way:?}");
+    assert!((fine / 0.061 - 1.0).abs() < 0.4, "{fine}");
 }
 
 /// Prints the table of docs/validation/fudo-notes.md: which other inputs would give the measured displacement?
@@ -121,8 +126,8 @@ fn published_inputs_hardly_move_a_block() {
 fn inputs_that_move_a_block_as_measured() {
     let published = Stream::over_crest(CREST_Z);
     let higher = [0.722, 0.727, 0.732].map(Stream::over_crest);
-    let openfoam = [1.0, 1.2, 1.58].map(|factor| Push::OPENFOAM.with_more_drag(factor));
-    for push in openfoam.into_iter().chain([Push::PARTICLES]) {
+    let openfoam = [1.0, 1.25, 1.58].map(|factor| Push::OPENFOAM.with_more_drag(factor));
+    for push in openfoam.into_iter().chain([Push::FINE, Push::COARSE]) {
         let friction = [0.32, 0.28, 0.24, 0.20].map(|friction| published.pushes(push, friction));
         let speed = [1.05, 1.1, 1.2].map(|factor| published.faster(factor).pushes(push, FRICTION));
         let crest = [0, 1, 2].map(|k: usize| higher[k].pushes(push, FRICTION));

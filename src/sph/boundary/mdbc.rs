@@ -17,8 +17,8 @@
 //! its errors would drive the sheet apart. If a node has no neighbours, its boundary particle has the reference density
 //! rho0.
 //!
-//! As published, no boundary density is lower than rho0, so that a wall exerts pressure on the water but no suction. If
-//! the suction in the water has a limit, a wall also pulls at water that is attached to it: where the fitted gradient is
+//! As published, no boundary density is lower than rho0, so that a wall exerts pressure on the water but no suction. With
+//! `lowest_density`, a wall also pulls at water that is attached to it: where the fitted gradient is
 //! trusted and the mean density around the node is below rho0. The density of the wall is at least this mean. Without
 //! this condition, a wall above the surface would pull still water upwards, by the extrapolated hydrostatic gradient.
 
@@ -226,7 +226,7 @@ impl NodeSums {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
-        // A wall pulls no more than the water around the node. A thin sheet does not pull, because air enters behind it.
+        // A wall pulls no more than the water around the node. It does not pull at a thin sheet, because air enters between.
         let lowest = parameters.lowest_density.map_or(0.0, |density| trust * around.clamp(density - rho0, 0.0));
         rho0 + excess.max(lowest)
     }
