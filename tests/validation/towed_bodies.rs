@@ -343,6 +343,8 @@ fn drag_of_a_square_cylinder_approaches_the_measured_one() {
     // numbers are 0.13 and 0.09, so the target 0.12 to 0.14 cannot be tested. The limits are those of one vortex less or
     // more in three.
     assert!((1.9..2.2).contains(&finest.drag) && (0.08..0.18).contains(&finest.strouhal), "{finest:?}");
+    // Vortices shed: the lift fluctuates by 1.3 to 1.5, but hardly without shedding.
+    assert!(finest.lift > 0.65, "{finest:?}");
 }
 
 /// Returns the drag coefficient of a thin rib that leaves the share `open` of the height of a channel, by the theory of
