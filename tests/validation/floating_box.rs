@@ -207,9 +207,9 @@ fn a_fit_finds_amplitude_phase_and_drift() {
 }
 
 /// Asserts that heave and roll amplitudes agree with the measurement, and that the drift ratio is in the range `drift`,
-/// which depends on the resolution. Each range is 0.15 to either side of a ratio near the computed one, because a fit over half of
-/// the periods changes the drift by a quarter. The limit for the roll is wide, because the roll is uncertain: in
-/// potential flow, it doubles if the centre of mass is 5 mm lower.
+/// which depends on the resolution. Each range is 0.15 to either side of a ratio near the computed one, because a fit
+/// over half of the periods changes the drift by a quarter. The limit for the roll is wide, because the roll is
+/// uncertain: in potential flow, it doubles if the centre of mass is 5 mm lower.
 fn assert_as_measured(results: Vec<[f64; 5]>, roll: f64, drift: [f64; 2]) {
     for [heave, _, roll_ratio, _, drift_ratio] in results {
         assert!((heave - 1.0).abs() < 0.1 && (roll_ratio - 1.0).abs() < roll, "heave {heave}, roll {roll_ratio}");

@@ -17,10 +17,10 @@
 //! its errors would drive the sheet apart. If a node has no neighbours, its boundary particle has the reference density
 //! rho0.
 //!
-//! As published, no boundary density is lower than rho0, so that a wall exerts pressure on the water but no suction. With
-//! `lowest_density`, a wall also pulls at water that is attached to it: where the fitted gradient is
-//! trusted and the mean density around the node is below rho0. The density of the wall is at least this mean. Without
-//! this condition, a wall above the surface would pull still water upwards, by the extrapolated hydrostatic gradient.
+//! As published, no boundary density is lower than rho0, so that a wall exerts pressure on the water but no suction.
+//! With `lowest_density`, a wall also pulls at water that is attached to it: where the fitted gradient is trusted and
+//! the mean density around the node is below rho0. The density of the wall is at least this mean. Without this
+//! condition, a wall above the surface would pull still water upwards, by the extrapolated hydrostatic gradient.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -226,7 +226,8 @@ impl NodeSums {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
-        // A wall pulls no more than the water around the node. It does not pull at a thin sheet, because air enters between.
+        // A wall pulls no more than the water around the node. Between a wall and a thin sheet, air would enter, so that
+        // the wall does not pull there.
         let lowest = parameters.lowest_density.map_or(0.0, |density| trust * around.clamp(density - rho0, 0.0));
         rho0 + excess.max(lowest)
     }
