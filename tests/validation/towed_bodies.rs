@@ -336,7 +336,7 @@ fn drag_of_a_square_cylinder_approaches_the_measured_one() {
         let body = Towed::square_cylinder(particles);
         Flow::around(&body, body.width, 48.0)
     });
-    // Reached over 48 sides: 1.69 and 2.10 with 12 and 16 particles, over 36 sides: 1.73 and 2.07.
+    // Reached over 48 sides: 1.36, 1.69 and 2.10; over 36 sides with 12 and 16 particles: 1.73 and 2.07.
     assert!(flows.is_sorted_by(|a, b| a.drag < b.drag));
     let finest = &flows[2];
     // The range of the source. Only three or four vortices shed, at irregular times: over 48 and 36 sides, the Strouhal
