@@ -162,9 +162,9 @@ mod tests {
         let path = folders.page.join(page::FILE);
         let page = fs::read_to_string(&path).unwrap();
         for words in [
-            "by \u{2212}53.5 % for the 2.6 cm wave and by +1.1 and +3.2 % for the 4.5 cm wave.",
+            "by \u{2212}53.5 % (9 mm) for the 2.6 cm wave and by +1.1 % (9 mm) and +3.2 % (7 mm) for the 4.5 cm wave (",
             "For the 2.6 cm wave, breakwater is on the unsafe side:",
-            "For these waves at the finest spacing, 0 and 100 % of the units are damaged in breakwater, and 80 and \
+            "For these waves, each at its finest spacing, 0 and 100 % of the units are damaged in breakwater, and 80 and \
              100 % in the experiment.",
             "| 4.5 | 9 |  | 2 | 0.242 | 0.245 | +1.1 | 0.239 | +2.5 | \u{2212}32.5 | 100 / 100 |",
             "| `mound.crest_width_m` | 0.32 | 0.28 | 9 |  | \u{2212}19.2 |",

@@ -96,16 +96,17 @@ fn verdict(waves: &[&ReferenceWave], predicted: &[&Compared]) -> String {
         let is_published = |dp_m: f64| wave.convergence.iter().any(|other| (other.dp_m - dp_m).abs() < 1e-9);
         predicted.iter().filter(|result| result.wave == wave && is_published(result.dp_m())).copied().collect()
     };
-    let mut spacings: Vec<f64> = Vec::new();
     let (mut deviations, mut missed, mut damaged, mut measured) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for wave in waves {
         let results = of_wave(wave);
         let Some(finest) = results.last() else { continue };
-        spacings.extend(results.iter().map(|result| result.dp_m()));
         let percents: Vec<f64> = results.iter().map(|result| result.run.deviation_percent).collect();
-        let words: Vec<String> = percents.iter().map(|percent| signed(*percent)).collect();
+        let word = |result: &&Compared| {
+            format!("{} % ({} mm)", signed(result.run.deviation_percent), millimetres(result.dp_m()))
+        };
+        let words: Vec<String> = results.iter().map(word).collect();
         let name = format!("the {} cm wave", centimetres(wave));
-        deviations.push(format!("by {} % for {name}", joined(&words)));
+        deviations.push(format!("by {} for {name}", joined(&words)));
         let side = match percents.iter().copied().reduce(|a, b| if a.abs() > b.abs() { a } else { b }) {
             Some(percent) if percent < -MISSED_PERCENT => Some(("unsafe", "less", -percent)),
             Some(percent) if percent > MISSED_PERCENT => Some(("safe", "more", percent)),
@@ -120,22 +121,17 @@ fn verdict(waves: &[&ReferenceWave], predicted: &[&Compared]) -> String {
         damaged.push(short(100.0 * finest.run.damage_ratio, 0));
         measured.push(short(100.0 * wave.measured_damage_ratio(), 0));
     }
-    spacings.sort_by(|a, b| b.total_cmp(a));
-    spacings.dedup();
-    let spacings: Vec<String> = spacings.into_iter().map(millimetres).collect();
-    let spacings = match &spacings[..] {
-        [] => return "No run with the default scheme has a published particle spacing.".to_owned(),
-        [one] => format!("a particle spacing of {one} mm"),
-        several => format!("particle spacings of {} mm", joined(several)),
-    };
+    if deviations.is_empty() {
+        return "No run with the default scheme has a published particle spacing.".to_owned();
+    }
     let missed = if missed.is_empty() {
         format!("no mean displacement deviates by more than {MISSED_PERCENT} %")
     } else {
         joined(&missed)
     };
     format!(
-        "At {spacings}, the mean displacement deviates from the measured mean {}.\n{}{}.\n\
-         For these waves at the finest spacing, {} % of the units are damaged in breakwater, and {} % in the \
+        "The mean displacement deviates from the measured mean {} (particle spacings in brackets).\n{}{}.\n\
+         For these waves, each at its finest spacing, {} % of the units are damaged in breakwater, and {} % in the \
          experiment.",
         joined(&deviations),
         missed[..1].to_uppercase(),
