@@ -70,7 +70,7 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
         page.add("## With the scheme of the published runs");
         page.add(
             "These runs use `numerics.scheme` = `mitsui_2023`. Their whole bed is PVC, like the mound. In the runs above, the \
-             bed beside the mound is mortar, as in the experiment.",
+             bed next to the mound is mortar, as in the experiment.",
         );
         add_table(&mut page, &base);
     }
