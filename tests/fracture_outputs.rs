@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use breakwater::femdem::mesh::block::{Pattern, block};
-use breakwater::output::{Table, TriangleMoments};
+use breakwater::output::{PolyDataMoments, Table};
 use glam::DVec3;
 use hdf5_metno::File;
 use serde_json::{Value, json};
@@ -110,10 +110,10 @@ fn a_fracture_run_writes_tables_paraview_files_and_a_report() {
     // Limit 1e-12: rounding of some hundred volumes.
     assert!((mass / (0.4 * 0.1 * 0.1 * 2340.0) - 1.0).abs() < 1e-12, "{mass}");
 
-    let section = TriangleMoments::open(&dir.join("section.vtkhdf")).unwrap();
+    let section = PolyDataMoments::open(&dir.join("section.vtkhdf")).unwrap();
     assert_eq!(section.times_s().len(), 11);
     let section_area: f64 =
-        section.triangles(0).unwrap().iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
+        section.corners(0).unwrap().iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
     // The section cuts both bodies along their middle. Limit 1e-6: positions are in single precision.
     assert!((section_area - 0.08).abs() < 1e-6, "{section_area}");
     let tets = File::open(dir.join("tets.vtkhdf")).unwrap();

@@ -181,9 +181,10 @@ fn print(case: &Case) {
     println!("  memory      about {:.2} GB", estimate.bytes / 1e9);
     let files = OutputSize::estimate(case);
     println!(
-        "  files       about {}: fluid.vtkhdf {}, units.vtkhdf {}, tables {}, checkpoint {}",
+        "  files       about {}: fluid.vtkhdf {}, surface.vtkhdf {}, units.vtkhdf {}, tables {}, checkpoint {}",
         size(files.total()),
         size(files.fluid),
+        size(files.surface),
         size(files.units),
         size(files.tables),
         size(files.checkpoint)

@@ -11,7 +11,7 @@ pub(super) fn stem(path: &Path) -> String {
 }
 
 /// Files that a run or the flume model writes. --overwrite deletes only these files and the subfolder `impacts`.
-const RESULT_FILES: [&str; 35] = [
+const RESULT_FILES: [&str; 37] = [
     "bodies.csv",
     "breakage.csv",
     "breakage.json",
@@ -37,9 +37,11 @@ const RESULT_FILES: [&str; 35] = [
     "ml_piston_velx.csv",
     "picture.svg",
     "profile.csv",
+    "progress.json",
     "report.html",
     "section.vtkhdf",
     "summary.json",
+    "surface.vtkhdf",
     "surfaces.vtkhdf",
     "tets.vtkhdf",
     "unit_mesh.msh",

@@ -47,7 +47,5 @@ pub use summary::{
 };
 pub use table::Table;
 pub use unit_surface::UnitSurface;
-pub use vtkhdf::{
-    Cells, FieldKind, FieldValues, PolyDataSeries, TetMoment, TetSeries, TriangleMoments, WaterSnapshot, WaterSnapshots,
-};
+pub use vtkhdf::{Cells, FieldKind, FieldValues, PolyDataMoments, PolyDataSeries, TetMoment, TetSeries};
 pub use writer::Writer;

@@ -23,6 +23,11 @@ impl Schedule {
         Self { count: 0, interval, from: 0.0, before: 0, skipped: 0 }
     }
 
+    /// Returns the schedule of an output that is never due.
+    pub fn never() -> Self {
+        Self::every(None)
+    }
+
     /// Returns the schedule of an output that is first due after one interval [s].
     pub fn after_every(interval: Option<f64>) -> Self {
         Self { skipped: 1, ..Self::every(interval) }

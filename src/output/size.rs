@@ -19,6 +19,8 @@ const BYTES_PER_TRIANGLE: f64 = 32.0;
 const RESERVED: f64 = 5.0 * 16_384.0 * 8.0;
 /// Size of a vertex of a unit surface in a snapshot [bytes]: position, velocity and number of the unit.
 const BYTES_PER_SURFACE_POINT: f64 = 28.0;
+/// Size of a square of the water surface in a snapshot [bytes]: a point with velocity and pressure, and two triangles.
+const BYTES_PER_SURFACE_SQUARE: f64 = 28.0 + 2.0 * 24.0;
 /// Size of a particle in a checkpoint [bytes]. Water: position, velocity, density, mass, number; boundary: density.
 const BYTES_PER_WATER_STATE: f64 = 68.0;
 const BYTES_PER_BOUNDARY_STATE: f64 = 8.0;
@@ -29,6 +31,8 @@ const BYTES_PER_BOUNDARY_STATE: f64 = 8.0;
 pub struct OutputSize {
     /// Size of `fluid.vtkhdf`, if the amount of water in `output.fluid_box_m` stays the same as at the start.
     pub fluid: f64,
+    /// Size of `surface.vtkhdf`, if the surface of the water stays as large as at the start.
+    pub surface: f64,
     /// Size of `units.vtkhdf`, which contains the surfaces of the units.
     pub units: f64,
     /// Total size of the CSV tables.
@@ -49,6 +53,7 @@ impl OutputSize {
         let fluid_bytes = |snapshots: f64| RESERVED + particles * (snapshots * bytes_per_particle + BYTES_PER_VERTEX);
         Self {
             fluid: if output.fluid_interval.is_some() { fluid_bytes(count(output.fluid_interval)) } else { 0.0 },
+            surface: water_surface_bytes(case, count(output.surface_interval)),
             units: surfaces_bytes(case, count(output.units_interval)),
             tables: table_bytes(case, count(Some(output.series_interval))),
             checkpoint: BYTES_PER_WATER_STATE * estimate.fluid
@@ -58,8 +63,21 @@ impl OutputSize {
 
     /// Returns the total size of all files [bytes].
     pub fn total(&self) -> f64 {
-        self.fluid + self.units + self.tables + self.checkpoint
+        self.fluid + self.surface + self.units + self.tables + self.checkpoint
     }
+}
+
+/// Bytes of the closed surface of the still water: one point and two triangles for each square of one particle spacing.
+fn water_surface_bytes(case: &Case, snapshots: f64) -> f64 {
+    if snapshots == 0.0 {
+        return 0.0;
+    }
+    let (domain, output) = (&case.domain, &case.output);
+    let share = output.fluid_box.map_or(1.0, |corners| case.share_of_water_in(corners));
+    let squares = |length: f64, spacing: f64| 2.0 * length * (domain.width + domain.depth) / (spacing * spacing);
+    let of_region = |coarseness: f64, x: [f64; 2]| squares(x[1] - x[0], coarseness * domain.dp);
+    let count: f64 = domain.regions.iter().map(|region| of_region(f64::from(region.coarseness), region.x)).sum();
+    RESERVED + snapshots * BYTES_PER_SURFACE_SQUARE * share * count
 }
 
 fn surfaces_bytes(case: &Case, snapshots: f64) -> f64 {

@@ -244,6 +244,8 @@ pub enum Stopped {
     Duration,
     /// All units are at rest.
     AtRest,
+    /// The run has not ended: this is a summary of the run so far.
+    Running,
     /// A tilt test ended, because all units slide or the bed reached the steepest slope of the test.
     TestOver,
 }
@@ -253,6 +255,7 @@ impl fmt::Display for Stopped {
         out.write_str(match self {
             Self::Duration => "duration of the case reached",
             Self::AtRest => "units at rest",
+            Self::Running => "still running",
             Self::TestOver => "end of the test",
         })
     }
@@ -261,6 +264,8 @@ impl fmt::Display for Stopped {
 impl Summary {
     /// Name of the summary file in a run folder.
     pub const FILE: &str = "summary.json";
+    /// Name of the file with a summary of the run so far; a run deletes it at its end.
+    pub const PROGRESS_FILE: &str = "progress.json";
 
     /// Sets the results of the units, and computes damage ratio and mean displacement from them.
     pub fn set_units(&mut self, units: Vec<UnitSummary>, damage_distance_m: f64) {
@@ -283,15 +288,21 @@ impl Summary {
         Self { execution: Execution::default(), ..self.clone() }
     }
 
-    /// Writes `summary.json` into the run folder.
+    /// Writes `summary.json` into the run folder, or `progress.json` if the run has not ended.
     ///
     /// # Errors
     /// If the file cannot be written.
     pub fn write(&self, run_dir: &Path) -> Result<(), OutputError> {
-        let path = run_dir.join(Self::FILE);
+        let is_running = self.stopped == Stopped::Running;
+        let path = run_dir.join(if is_running { Self::PROGRESS_FILE } else { Self::FILE });
         let mut text = serde_json::to_string_pretty(self).map_err(OutputError::json(&path))?;
         text.push('\n');
-        write_atomically(&path, text.as_bytes())
+        write_atomically(&path, text.as_bytes())?;
+        let progress = run_dir.join(Self::PROGRESS_FILE);
+        if !is_running && progress.exists() {
+            std::fs::remove_file(&progress).map_err(OutputError::io(&progress))?;
+        }
+        Ok(())
     }
 
     /// Reads `summary.json` of a run folder.
@@ -299,9 +310,20 @@ impl Summary {
     /// # Errors
     /// If the file is missing or is not a summary.
     pub fn read(run_dir: &Path) -> Result<Self, OutputError> {
-        let path = run_dir.join(Self::FILE);
-        let bytes = std::fs::read(&path).map_err(OutputError::io(&path))?;
-        serde_json::from_slice(&bytes).map_err(OutputError::json(&path))
+        Self::read_file(&run_dir.join(Self::FILE))
+    }
+
+    /// Reads `progress.json` in the folder of a run in progress.
+    ///
+    /// # Errors
+    /// If the file is missing or is not a summary.
+    pub fn read_progress(run_dir: &Path) -> Result<Self, OutputError> {
+        Self::read_file(&run_dir.join(Self::PROGRESS_FILE))
+    }
+
+    fn read_file(path: &Path) -> Result<Self, OutputError> {
+        let bytes = std::fs::read(path).map_err(OutputError::io(path))?;
+        serde_json::from_slice(&bytes).map_err(OutputError::json(path))
     }
 }
 
@@ -346,6 +368,12 @@ mod tests {
         assert_ne!(summary, two_units());
         summary.breakage = None;
         assert_eq!(summary.without_execution(), two_units());
+        summary.stopped = Stopped::Running;
+        summary.write(folder.path()).unwrap();
+        assert_eq!(Summary::read_progress(folder.path()).unwrap(), summary);
+        summary.stopped = Stopped::AtRest;
+        summary.write(folder.path()).unwrap();
+        assert!(Summary::read_progress(folder.path()).is_err() && Summary::read(folder.path()).unwrap() == summary);
     }
 
     #[test]

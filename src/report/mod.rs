@@ -1,6 +1,8 @@
 //! HTML pages, charts and pictures of the results, and comparison with measurements.
 
+mod base64;
 pub mod compare;
+mod film;
 pub mod fracture;
 pub mod page;
 pub mod plot;

@@ -1,14 +1,21 @@
 //! Layout of the HTML pages of all reports: style sheet, sections, number formats.
 
+use super::film::FILM_STYLE;
 use super::plot::{CHART_STYLE, escape, short};
 
 /// Returns a complete HTML page with style sheet. `title` is plain text, `body` is HTML.
 pub fn page(title: &str, body: &str) -> String {
+    page_reloading(title, body, None)
+}
+
+/// Returns a page as [`page`] does. With `reload_s` [s], a browser loads the page again after this time.
+pub fn page_reloading(title: &str, body: &str, reload_s: Option<u64>) -> String {
+    let reload = reload_s.map(|time| format!("<meta http-equiv=\"refresh\" content=\"{time}\">\n")).unwrap_or_default();
     let title = escape(title);
-    let style = [CHART_STYLE, include_str!("style.css"), include_str!("shades.css")].concat();
+    let style = [CHART_STYLE, include_str!("style.css"), include_str!("shades.css"), FILM_STYLE].concat();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n{reload}<title>{title}</title>\n\
          <style>\n{style}</style>\n</head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n"
     )
 }

@@ -5,6 +5,7 @@
 //! | [`device`] | choice between the processor (CPU) and a graphics card (GPU) |
 //! | [`gpu`] | the time step on a graphics card |
 //! | [`solver`] | the time step on the processor (operations, size), power balance of the water, sampling for gauges |
+//! | [`surface`] | surface of the water as triangles, for films |
 //! | [`pairs`] | sums over pairs of neighbours: rates and gradients |
 //! | [`boundary`] | density and velocity of boundary particles, from ghost nodes |
 //! | [`neighbours`] | cell list, neighbour lists, particle records |
@@ -29,4 +30,5 @@ pub mod pairs;
 pub mod parameters;
 pub mod particles;
 pub mod solver;
+pub mod surface;
 pub mod terms;

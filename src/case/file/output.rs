@@ -11,6 +11,11 @@ pub struct OutputFile {
     pub fluid_interval_s: f64,
     /// Interval between outputs of the unit surfaces [s]; 0 for no output.
     pub units_interval_s: f64,
+    /// Interval between snapshots of the surface of the water, as triangles, for the film in the report and for ParaView
+    /// [s]; 0 for none. Two-dimensional runs have none.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
+    #[serde(skip_serializing_if = "is_default_surface_interval")]
+    pub surface_interval_s: f64,
     /// Interval between rows of the tables with gauges, unit motion, unit forces and energy [s].
     pub series_interval_s: f64,
     /// Simulated time between checkpoints [s]; 0 for only one checkpoint, at the end of the run.
@@ -31,12 +36,22 @@ impl Default for OutputFile {
         Self {
             fluid_interval_s: 0.1,
             units_interval_s: 0.02,
+            surface_interval_s: SURFACE_INTERVAL_S,
             series_interval_s: 0.01,
             checkpoint_interval_s: 0.5,
             fluid_fields: FluidField::ALL.to_vec(),
             fluid_box_m: None,
         }
     }
+}
+
+/// Default of `surface_interval_s` [s].
+const SURFACE_INTERVAL_S: f64 = 0.1;
+
+// serde calls this function with a reference.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_default_surface_interval(interval: &f64) -> bool {
+    *interval == SURFACE_INTERVAL_S
 }
 
 fn is_every_field(fields: &[FluidField]) -> bool {

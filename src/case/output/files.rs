@@ -1,6 +1,6 @@
 //! The validated output settings.
 
-use crate::case::file::{FluidField, OutputFile};
+use crate::case::file::{FluidField, OutputFile, Sides};
 use crate::case::flume::domain::Domain;
 use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 
@@ -18,6 +18,8 @@ pub struct Output {
     pub fluid_box: Option<[[f64; 3]; 2]>,
     /// Interval between outputs of the unit surfaces [s].
     pub units_interval: Option<f64>,
+    /// Interval between snapshots of the surface of the water [s]; `None` in two dimensions.
+    pub surface_interval: Option<f64>,
     /// Interval between rows of the tables with gauges, unit motion, unit forces, energy and diagnostics [s].
     pub series_interval: f64,
     /// Interval between checkpoints [s]; `None` for only one checkpoint, at the end of the run.
@@ -29,6 +31,7 @@ pub fn validate(file: &OutputFile, duration: f64, domain: Option<&Domain>, check
     let mut interval = |key: &str, value: f64| validate_interval(key, value, duration, check);
     let fluid_interval = interval("fluid_interval_s", file.fluid_interval_s);
     let units_interval = interval("units_interval_s", file.units_interval_s);
+    let surface_interval = interval("surface_interval_s", file.surface_interval_s);
     let checkpoint_interval = interval("checkpoint_interval_s", file.checkpoint_interval_s);
     validate_series_interval(file.series_interval_s, duration, check);
     validate_fields(&file.fluid_fields, check);
@@ -40,6 +43,7 @@ pub fn validate(file: &OutputFile, duration: f64, domain: Option<&Domain>, check
         fluid_fields: file.fluid_fields.clone(),
         fluid_box: file.fluid_box_m,
         units_interval,
+        surface_interval: surface_interval.filter(|_| domain.is_none_or(|d| d.sides != Sides::TwoDimensional)),
         series_interval: file.series_interval_s,
         checkpoint_interval,
     }

@@ -16,15 +16,13 @@ use self::layout::{
 };
 use super::OutputError;
 
-pub use self::snapshots::{WaterSnapshot, WaterSnapshots};
-pub use self::triangles::TriangleMoments;
+pub use self::moments::PolyDataMoments;
 pub use self::volume::{TetMoment, TetSeries};
 
 mod layout;
-mod snapshots;
+mod moments;
 #[cfg(test)]
 mod tests;
-mod triangles;
 mod volume;
 
 /// Kind of the cells in a [`PolyDataSeries`].

@@ -44,29 +44,6 @@ fn the_number_of_particles_may_change_from_step_to_step() {
 }
 
 #[test]
-fn every_recorded_time_reads_back() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("fluid.vtkhdf");
-    let mut series = PolyDataSeries::create(&path, Cells::Vertices, &FLUID).unwrap();
-    for (step, count) in [5, 3, 0, 2].into_iter().enumerate() {
-        append_particles(&mut series, step, count);
-    }
-    // The file is still open for writing, as during a run.
-    let snapshots = WaterSnapshots::open(&path).unwrap().unwrap();
-    assert_eq!(snapshots.times_s(), [0.0, 0.1, 0.2, 0.1 * 3.0]);
-    assert_eq!(snapshots.nearest(0.14), Some(1));
-    assert_eq!(snapshots.nearest(9.0), Some(3));
-    let water = snapshots.read(1).unwrap();
-    assert_eq!(water.points_m, [[0.0, 1.0, 0.5], [1.0, 1.0, 0.5], [2.0, 1.0, 0.5]]);
-    assert_eq!(water.velocity_m_s, water.points_m);
-    assert!(snapshots.read(2).unwrap().points_m.is_empty());
-    assert!(WaterSnapshots::open(&folder.path().join("none.vtkhdf")).is_err());
-    let path = folder.path().join("places.vtkhdf");
-    let _places = PolyDataSeries::create(&path, Cells::Vertices, &[("id", FieldKind::Integer)]).unwrap();
-    assert!(WaterSnapshots::open(&path).unwrap().is_none());
-}
-
-#[test]
 fn a_resumed_series_continues_after_the_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fluid.vtkhdf");

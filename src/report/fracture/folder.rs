@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::case::FractureCase;
-use crate::output::{OutputError, Table, TriangleMoments};
+use crate::output::{OutputError, PolyDataMoments, Table};
 use crate::report::plot::short;
 use crate::simulation::fracture::summary::{FractureSummary, InitiationSummary};
 
@@ -20,7 +20,7 @@ pub struct FractureFolder {
     /// `cracks.csv`: failed faces.
     pub cracks: Option<Table>,
     /// Triangles for the pictures: outer surfaces of the bodies, crack faces, section plane.
-    pub pictures: Option<[TriangleMoments; 3]>,
+    pub pictures: Option<[PolyDataMoments; 3]>,
 }
 
 impl FractureFolder {
@@ -33,7 +33,7 @@ impl FractureFolder {
         let case = FractureCase::load(&path).map_err(|error| OutputError::content(&path, error.to_string()))?;
         let files = ["surfaces.vtkhdf", "cracks.vtkhdf", "section.vtkhdf"].map(|name| dir.join(name));
         let pictures = if files.iter().all(|file| file.exists()) {
-            let [surfaces, cracks, section] = files.each_ref().map(|file| TriangleMoments::open(file));
+            let [surfaces, cracks, section] = files.each_ref().map(|file| PolyDataMoments::open(file));
             Some([surfaces?, cracks?, section?])
         } else {
             None

@@ -1,7 +1,8 @@
 //! Text of the report of a fracture run, section by section.
 
 use super::folder::{FractureFolder, place_in_words};
-use super::{charts, pictures, tables};
+use super::{charts, film, pictures, tables};
+use crate::report::film::viewer_html;
 use crate::report::plot::{escape, short};
 use crate::{
     output::OutputError,
@@ -16,6 +17,8 @@ pub fn body(run: &FractureFolder) -> Result<String, OutputError> {
     let mut html = header(run);
     html += &key_figures(run);
     html += &cracks(run);
+    let film = film::film(run)?;
+    html += &film.map_or(String::new(), |scene| section("Film", &viewer_html(&scene)));
     html += &section("Pictures", &pictures::pictures(run)?);
     html += &energy(run);
     html += &fragments(run);

@@ -14,7 +14,7 @@ const INK: Colour = [0.1; 3];
 /// Width of the margin divided by the size of the picture [-].
 const MARGIN: f64 = 0.05;
 /// Colours from compression (blue) over zero (grey) to tension (red); colour-blind readers can distinguish them.
-const SCALE: [Colour; 7] = [
+pub const SCALE: [Colour; 7] = [
     [0.13, 0.26, 0.52],
     [0.32, 0.54, 0.76],
     [0.68, 0.80, 0.90],
@@ -55,7 +55,7 @@ impl StressScene {
         let mut top = 2.0 * strength;
         if let (true, Some([_, _, section])) = (top == 0.0, &run.pictures) {
             for frame in frames {
-                let stresses = section.values::<f32>(*frame, "sigma_1")?;
+                let stresses = section.of_triangles::<f32>(*frame, "sigma_1")?;
                 top = stresses.iter().fold(top, |top, sigma| top.max(f64::from(sigma.abs())));
             }
         }
@@ -68,8 +68,8 @@ impl StressScene {
     /// If the files cannot be read.
     pub fn picture(&self, run: &FractureFolder, frame: usize) -> Result<String, OutputError> {
         let Some([surfaces, cracks, section]) = &run.pictures else { return Ok(String::new()) };
-        let (cut, sigma) = (section.triangles(frame)?, section.values::<f32>(frame, "sigma_1")?);
-        let cut_body = section.values::<i32>(frame, "body")?;
+        let (cut, sigma) = (section.corners(frame)?, section.of_triangles::<f32>(frame, "sigma_1")?);
+        let cut_body = section.of_triangles::<i32>(frame, "body")?;
         let project_flat = |corner: DVec3| {
             let [x, y, _] = self.view.project(corner);
             [x, y, 0.0]
@@ -78,8 +78,8 @@ impl StressScene {
         for (corners, sigma) in cut.iter().zip(&sigma) {
             canvas.fill(corners.map(project_flat), self.colour(f64::from(*sigma)));
         }
-        let (outside, of_body) = (surfaces.triangles(frame)?, surfaces.values::<i32>(frame, "body")?);
-        let (faces, crack_body) = (cracks.triangles(frame)?, cracks.values::<i32>(frame, "body")?);
+        let (outside, of_body) = (surfaces.corners(frame)?, surfaces.of_triangles::<i32>(frame, "body")?);
+        let (faces, crack_body) = (cracks.corners(frame)?, cracks.of_triangles::<i32>(frame, "body")?);
         for body in 0..run.case.setup.bodies.len() {
             let cut_triangles = cut.iter().zip(&cut_body).filter(|(_, number)| **number == body as i32).map(|(c, _)| c);
             let Some(plane) = plane_of(cut_triangles) else { continue };

@@ -90,9 +90,9 @@ impl UnitScene {
     /// If the files cannot be read.
     pub fn picture(&self, run: &FractureFolder, frame: usize) -> Result<String, OutputError> {
         let Some([surfaces, cracks, _]) = &run.pictures else { return Ok(String::new()) };
-        let (outside, body) = (surfaces.triangles(frame)?, surfaces.values::<i32>(frame, "body")?);
+        let (outside, body) = (surfaces.corners(frame)?, surfaces.of_triangles::<i32>(frame, "body")?);
         let is_unit = |face: usize| self.shown.contains(&(body[face] as usize));
-        let (faces, modes) = (cracks.triangles(frame)?, cracks.values::<i32>(frame, "mode")?);
+        let (faces, modes) = (cracks.corners(frame)?, cracks.of_triangles::<i32>(frame, "mode")?);
         let project = |corners: &[DVec3; 3]| corners.map(|corner| self.view.project(corner));
         let normal = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a);
         let lit = |colour: Colour, normal: DVec3| mixed([0.0; 3], colour, self.view.light(normal) as f32);

@@ -32,6 +32,8 @@ pub struct RunFolder {
 impl RunFolder {
     /// Name of the file with the water particles.
     pub const WATER: &str = "fluid.vtkhdf";
+    /// Name of the file with the surface of the water.
+    pub const SURFACE: &str = "surface.vtkhdf";
     /// Name of the picture of one recorded time of the run.
     pub const PICTURE: &str = "picture.svg";
 
@@ -40,7 +42,18 @@ impl RunFolder {
     /// # Errors
     /// If the summary is missing, or an existing file is invalid.
     pub fn read(run_dir: &Path) -> Result<Self, OutputError> {
-        let summary = Summary::read(run_dir)?;
+        Self::with(Summary::read(run_dir)?, run_dir)
+    }
+
+    /// Reads the folder of a run in progress. Only `progress.json` is required.
+    ///
+    /// # Errors
+    /// If `progress.json` is missing, or an existing file is invalid or is just being written.
+    pub fn read_running(run_dir: &Path) -> Result<Self, OutputError> {
+        Self::with(Summary::read_progress(run_dir)?, run_dir)
+    }
+
+    fn with(summary: Summary, run_dir: &Path) -> Result<Self, OutputError> {
         let table = |name: &str| Table::read_if_present(&run_dir.join(name));
         let profile = match table("profile.csv")? {
             Some(table) => table.column("x_m")?.iter().zip(table.column("z_m")?).map(|(x, z)| [*x, *z]).collect(),

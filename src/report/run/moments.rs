@@ -7,7 +7,7 @@ use super::scene::{ImpactScene, Poses, bed_in, range, unit_radius};
 use super::solids::ViewDirection;
 use super::water::{Dot, Slab, SpeedScale};
 use super::window::{Window, label, svg};
-use crate::output::{OutputError, WaterSnapshots};
+use crate::output::{OutputError, PolyDataMoments};
 
 /// Length of the flume that is shown on each side of the mound [m].
 const BESIDE_MOUND_M: f64 = 0.5;
@@ -64,16 +64,19 @@ impl<'a> Moments<'a> {
         if !run.has(RunFolder::WATER) || run.summary.dp_m <= 0.0 {
             return Ok(None);
         }
-        let Some(water) = WaterSnapshots::open(&run.dir.join(RunFolder::WATER))? else { return Ok(None) };
+        let water = PolyDataMoments::open(&run.dir.join(RunFolder::WATER))?;
+        if !water.has("velocity") {
+            return Ok(None);
+        }
         let slab = Slab::in_the_middle(run.summary.domain_width_m, run.summary.dp_m);
         let x = shown_x(run);
         let mut moments = Vec::new();
         let mut shows_wavemaker = run.summary.wave.is_some();
         for Choice { step, words, pictured } in choices(run, &water) {
             let time_s = water.times_s()[step];
-            let snapshot = water.read(step)?;
-            let dots = slab.dots(&snapshot, x);
-            let ends = range(snapshot.points_m.iter().map(|p| f64::from(p[0])));
+            let points_m = water.points(step)?;
+            let dots = slab.dots(&points_m, &water.vectors(step, "velocity")?, x);
+            let ends = range(points_m.iter().map(|p| f64::from(p[0])));
             if step == 0 {
                 let at_wavemaker = run.summary.domain_x_m[0] + AT_WAVEMAKER * run.summary.dp_m;
                 shows_wavemaker &= ends.is_some_and(|[seaward, _]| seaward < at_wavemaker);
@@ -86,8 +89,13 @@ impl<'a> Moments<'a> {
             return Ok(None);
         }
         let scale = SpeedScale::holding(moments.iter().map(|moment| moment.dots.as_slice()));
-        let scene = ImpactScene::new(run, Window::new(x, shown_z(run, x, &moments)), ViewDirection::Side);
+        let scene = ImpactScene::new(run, Window::new(x, shown_z(run, x, heights(run, &moments))), ViewDirection::Side);
         Ok(Some(Self { run, scene, slab, scale, moments }))
+    }
+
+    /// Returns the time of the moment that `picture.svg` shows [s].
+    pub fn pictured_s(&self) -> Option<f64> {
+        self.moments.iter().find(|moment| moment.pictured).map(|moment| moment.time_s)
     }
 
     /// Returns the heading of the report section.
@@ -171,7 +179,7 @@ struct Choice {
 
 /// Chooses the moments, in chronological order. Without units or without a water force, four equally spaced moments are
 /// chosen.
-fn choices(run: &RunFolder, water: &WaterSnapshots) -> Vec<Choice> {
+fn choices(run: &RunFolder, water: &PolyDataMoments) -> Vec<Choice> {
     let Some(last) = water.times_s().len().checked_sub(1) else { return Vec::new() };
     let mut choices = vec![Choice { step: 0, words: "Start of the particle simulation".to_owned(), pictured: false }];
     let mut add = |step: usize, words: String, pictured: bool| {
@@ -225,7 +233,7 @@ fn largest_mean(run: &RunFolder, history: impl Fn(&UnitMotion) -> Vec<f64>) -> O
 }
 
 /// Range of x that the drawing shows [m]: the mound with some water on each side, and all positions of all units.
-fn shown_x(run: &RunFolder) -> [f64; 2] {
+pub fn shown_x(run: &RunFolder) -> [f64; 2] {
     let radius = unit_radius(run);
     let [begin, end] = run.summary.domain_x_m;
     let units = range(run.motions.iter().flat_map(|m| m.position_m.iter().map(|p| p[0])));
@@ -238,19 +246,24 @@ fn shown_x(run: &RunFolder) -> [f64; 2] {
     if end > begin { [low.max(begin), high.min(end)] } else { [low, high] }
 }
 
-/// Range of z that the drawing shows [m]: from below the bed to above the water and the units.
-fn shown_z(run: &RunFolder, x: [f64; 2], moments: &[Moment]) -> [f64; 2] {
+/// Range of z that the drawing shows [m]: from below the bed to above the still water and the heights `others` [m].
+pub fn shown_z(run: &RunFolder, x: [f64; 2], others: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let radius = unit_radius(run);
+    let bed = bed_in(run, x).into_iter().map(|p| p[1]);
+    let [low, high] = range(bed.chain(others).chain([run.summary.still_water_level_m])).unwrap_or([0.0, 1.0]);
+    [low - 0.5 * radius, high + 0.6 * radius]
+}
+
+/// Heights of the water, without spray, and of the units in the moments [m].
+fn heights(run: &RunFolder, moments: &[Moment]) -> Vec<f64> {
     let radius = unit_radius(run);
     let highest = |moment: &Moment| {
         let mut heights: Vec<f64> = moment.dots.iter().map(|dot| dot.z).collect();
         heights.sort_by(f64::total_cmp);
         heights.get((UNDER_EDGE * heights.len() as f64) as usize).copied()
     };
-    let bed = bed_in(run, x).into_iter().map(|p| p[1]);
     let units = moments
         .iter()
         .flat_map(|m| m.poses.iter().flat_map(|(_, pose)| [-radius, radius].map(|r| pose.position_m[2] + r)));
-    let all = bed.chain(moments.iter().filter_map(highest)).chain(units).chain([run.summary.still_water_level_m]);
-    let [low, high] = range(all).unwrap_or([0.0, 1.0]);
-    [low - 0.5 * radius, high + 0.6 * radius]
+    moments.iter().filter_map(highest).chain(units).collect()
 }

@@ -50,8 +50,16 @@ impl UnitMotion {
 
     /// Returns position and orientation at the recorded time nearest to `time_s` [s]; `None` without recorded times.
     pub fn at(&self, time_s: f64) -> Option<Pose> {
-        let distance = |i: &usize| (self.time_s[*i] - time_s).abs();
-        (0..self.time_s.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|i| self.pose(i))
+        self.nearest(time_s).map(|i| self.pose(i))
+    }
+
+    /// Returns the index of the recorded time nearest to `time_s` [s]; `None` without recorded times.
+    pub fn nearest(&self, time_s: f64) -> Option<usize> {
+        let last = self.time_s.len().checked_sub(1)?;
+        let after = self.time_s.partition_point(|time| *time < time_s).min(last);
+        let before = after.saturating_sub(1);
+        let distance = |i: usize| (self.time_s[i] - time_s).abs();
+        Some(if distance(before) <= distance(after) { before } else { after })
     }
 
     /// Returns position and orientation at the first and the last recorded time; `None` without recorded times.
@@ -70,7 +78,7 @@ fn magnitude(v: &[f64; 3]) -> f64 {
 }
 
 /// Position and orientation of a unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pose {
     /// Centre of mass [m].
     pub position_m: [f64; 3],

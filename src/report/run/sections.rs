@@ -3,16 +3,20 @@
 use super::super::plot::{escape, short};
 use super::folder::RunFolder;
 use super::moments::Moments;
-use super::{breakage, charts, views};
+use super::{breakage, charts, film, views};
 use crate::{
-    output::{Summary, UnitSummary, WaveSummary},
-    report::page::{clock, grouped, section},
+    output::{Stopped, Summary, UnitSummary, WaveSummary},
+    report::{
+        film::Scene,
+        page::{clock, grouped, section},
+    },
 };
 
 /// Returns the content of the `<main>` element of the page.
-pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
+pub fn body(run: &RunFolder, moments: Option<&Moments>, film: Option<&Scene>) -> String {
     let mut html = header(&run.summary);
     html += &key_figures(&run.summary);
+    html += &film.map_or(String::new(), |film| section("Film", &film::section(film)));
     html += &section("Units before and after the wave", &views::views(run));
     html += &moments.map_or(String::new(), |moments| section(moments.heading(), &moments.section()));
     html += &displacement(run);
@@ -41,7 +45,15 @@ fn header(summary: &Summary) -> String {
         true => "two-dimensional".to_owned(),
         false => format!("domain {} m wide", short(summary.domain_width_m, 3)),
     });
-    format!("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape(&summary.title), escape(&parts.join(" \u{b7} ")))
+    let progress = match summary.stopped {
+        Stopped::Running => {
+            let simulated = short(summary.simulated_s, 2);
+            format!("<p class=\"running\"><strong>The run is in progress: {simulated} s are simulated.</strong></p>\n")
+        }
+        _ => String::new(),
+    };
+    let lead = escape(&parts.join(" \u{b7} "));
+    format!("<h1>{}</h1>\n<p class=\"lead\">{lead}</p>\n{progress}", escape(&summary.title))
 }
 
 fn wave_in_words(wave: &WaveSummary) -> String {

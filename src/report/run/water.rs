@@ -4,12 +4,10 @@ use std::collections::BTreeSet;
 
 use super::super::plot::Axis;
 use super::window::{Window, label};
-use crate::output::WaterSnapshot;
+use crate::report::film::DENSE;
 
-/// Colours from slow to fast water: colour map `dense` of cmocean (Thyng et al. 2016), perceptually uniform and dark at
-/// high speed.
-const COLOURS: [&str; 10] =
-    ["#c4e0e6", "#9ecbe2", "#80b3e3", "#7498e4", "#767bdb", "#795dc4", "#7642a5", "#6d2b7f", "#5c1956", "#421130"];
+/// Colours from slow to fast water, dark at high speed.
+const COLOURS: [&str; 10] = DENSE;
 /// Half the thickness of the slab [particle spacings]. In still water, the slab contains one layer of particles; in
 /// mixed water, it contains only a few more.
 const HALF_SLAB: f64 = 0.75;
@@ -53,9 +51,9 @@ impl Slab {
     }
 
     /// Returns the particles that are in the slab and between two positions along the flume, `x` [m].
-    pub fn dots(&self, water: &WaterSnapshot, x: [f64; 2]) -> Vec<Dot> {
+    pub fn dots(&self, points_m: &[[f32; 3]], velocity_m_s: &[[f32; 3]], x: [f64; 2]) -> Vec<Dot> {
         let inside = |p: &[f64; 3]| (p[1] - self.y).abs() < self.half() && x[0] <= p[0] && p[0] <= x[1];
-        (water.points_m.iter().zip(&water.velocity_m_s))
+        (points_m.iter().zip(velocity_m_s))
             .map(|(point, velocity)| (point.map(f64::from), velocity.map(f64::from)))
             .filter(|(point, _)| inside(point))
             .map(|([x, _, z], v)| Dot { x, z, speed: v.iter().map(|c| c * c).sum::<f64>().sqrt() })
@@ -143,7 +141,7 @@ fn steps(dots: &BTreeSet<[i64; 3]>) -> String {
 }
 
 /// Rounds up to the next round number, for the end of a scale; returns at least 0.01.
-fn round_up(value: f64) -> f64 {
+pub fn round_up(value: f64) -> f64 {
     let value = value.max(0.01);
     let power = 10_f64.powf(value.log10().floor());
     let rounds = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];

@@ -106,11 +106,15 @@ impl Run for FlumeRun {
             self.recorder.record_interruption(&mut now)?;
             return Ok(Step::Stopped);
         }
-        let checkpoints = self.recorder.state().checkpoints.count;
+        let before = self.recorder.state().clone();
         let begun = Instant::now();
         self.recorder.record_due(&mut now)?;
+        if self.recorder.state().snapshots() != before.snapshots() {
+            // For a report of the run in progress.
+            summarise(&now, Stopped::Running, &self.dir)?.write(&self.dir)?;
+        }
         now.statistics.outputs_s += begun.elapsed().as_secs_f64();
-        if now.is_on_gpu() && self.recorder.state().checkpoints.count > checkpoints {
+        if now.is_on_gpu() && self.recorder.state().checkpoints.count > before.checkpoints.count {
             // The positions in the checkpoint differ slightly from those on the graphics card. Load the positions of
             // the checkpoint onto the card, as a resumed run does. Both runs then give the same results.
             now.load().map_err(|error| StepFailure::failure(Failure::from(error)))?;

@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::detail::DetailRecorder;
+use super::fragments::pieces;
 use super::run_state::RunState;
 use crate::case::FractureCase;
 use crate::femdem::element::{self, Moduli};
@@ -19,11 +20,12 @@ const BODIES_FILE: &str = "bodies.csv";
 const SURFACES_FILE: &str = "surfaces.vtkhdf";
 const CRACKS_FILE: &str = "cracks.vtkhdf";
 
-const SURFACE_FIELDS: [(&str, FieldKind); 4] = [
+const SURFACE_FIELDS: [(&str, FieldKind); 5] = [
     ("velocity", FieldKind::Vector),
     ("sigma_1", FieldKind::Scalar),
     ("sigma_1_minus_sigma_3", FieldKind::Scalar),
     ("body", FieldKind::Integer),
+    ("fragment", FieldKind::Integer),
 ];
 const CRACK_FIELDS: [(&str, FieldKind); 3] =
     [("time_s", FieldKind::Scalar), ("mode", FieldKind::Integer), ("body", FieldKind::Integer)];
@@ -139,8 +141,9 @@ impl FractureRecorder {
         self.detail.record_section(world)?;
         let single = |v: DVec3| v.as_vec3().to_array();
         let setup = world.setup();
-        let (mut points, mut velocity, mut first, mut difference, mut body) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut points, mut velocity, mut first, mut difference) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut body, mut fragment) = (Vec::new(), Vec::new());
+        let piece_of_tet = pieces(world).of_tet;
         for face in &case.mesh.faces.exteriors {
             let tet = face.tet as usize;
             let number = usize::from(world.tets.body[tet]);
@@ -153,6 +156,7 @@ impl FractureRecorder {
                 first.push(sigma_1 as f32);
                 difference.push((sigma_1 - sigma_3) as f32);
                 body.push(number as i32);
+                fragment.push(piece_of_tet[tet] as i32);
             }
         }
         let values = [
@@ -160,6 +164,7 @@ impl FractureRecorder {
             FieldValues::Scalar(&first),
             FieldValues::Scalar(&difference),
             FieldValues::Integer(&body),
+            FieldValues::Integer(&fragment),
         ];
         surfaces.append(world.time, &points, &corners_in_threes(points.len()), &values)?;
 

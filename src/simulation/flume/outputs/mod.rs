@@ -5,3 +5,4 @@ pub mod recorder;
 pub mod recorder_state;
 pub mod snapshots;
 pub mod summary;
+mod surface;

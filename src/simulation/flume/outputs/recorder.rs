@@ -16,6 +16,7 @@ use super::{
     checkpoint::Checkpoint,
     recorder_state::RecorderState,
     snapshots::{Frame, SURFACES_FILE, SnapshotFiles, WATER_FILE},
+    surface::{SURFACE_FILE, WaterParts},
 };
 use crate::simulation::flume::{Simulation, Units, measures::water_at_impacts::pressure_places, step::PreparedStep};
 use crate::{
@@ -106,7 +107,7 @@ impl Recorder {
             contacts: table(CONTACTS_FILE, &columns::CONTACTS, state.bytes[2])?,
             energy: table(ENERGY_FILE, &columns::ENERGY, state.bytes[3])?,
             diagnostics: table(DIAGNOSTICS_FILE, &columns::DIAGNOSTICS, state.bytes[4])?,
-            writer: Writer::spawn(SnapshotFiles::reopen(simulation, dir, state.water.count, state.surfaces.count)?),
+            writer: Writer::spawn(SnapshotFiles::reopen(simulation, dir, state.snapshots())?),
             state,
         })
     }
@@ -119,7 +120,7 @@ impl Recorder {
     pub fn branch(simulation: &Simulation, from: &Path, dir: &Path, state: RecorderState) -> Result<Self, OutputError> {
         drop(Self::create(simulation, dir)?);
         let tables = [GAUGES_FILE, UNITS_FILE, CONTACTS_FILE, ENERGY_FILE, DIAGNOSTICS_FILE];
-        for file in tables.into_iter().chain([WATER_FILE, SURFACES_FILE]) {
+        for file in tables.into_iter().chain([WATER_FILE, SURFACES_FILE, SURFACE_FILE]) {
             let (from, to) = (from.join(file), dir.join(file));
             if to.exists() {
                 fs::copy(&from, to).map_err(OutputError::io(&from))?;
@@ -140,7 +141,7 @@ impl Recorder {
     pub fn record_due(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
         self.writer.check()?;
         let time = now.time;
-        let needs_water = [self.state.series, self.state.water, self.state.checkpoints];
+        let needs_water = [self.state.series, self.state.water, self.state.water_surface, self.state.checkpoints];
         if needs_water.iter().any(|output| output.is_due(time)) {
             now.fetch()?;
         }
@@ -155,6 +156,10 @@ impl Recorder {
         if self.state.water.is_due(time) {
             self.record_water(now)?;
             self.state.water.count += 1;
+        }
+        if self.state.water_surface.is_due(time) {
+            self.record_water_surface(now)?;
+            self.state.water_surface.count += 1;
         }
         self.note_lengths();
         if self.state.checkpoints.is_due(time) {
@@ -180,6 +185,9 @@ impl Recorder {
         }
         if now.case.output.fluid_interval.is_some() {
             self.record_water(now)?;
+        }
+        if now.case.output.surface_interval.is_some() {
+            self.record_water_surface(now)?;
         }
         if let Some(units) = &now.units {
             let offset = contact_clock(now, units);
@@ -265,6 +273,11 @@ impl Recorder {
     fn record_water(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
         let frame = Frame::of_water(simulation);
         self.writer.give(move |files| files.append_water(&frame))
+    }
+
+    fn record_water_surface(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let water = WaterParts::of(simulation);
+        self.writer.give(move |files| files.append_water_surface(&water))
     }
 
     fn record_checkpoint(&mut self, simulation: &Simulation) -> Result<(), OutputError> {

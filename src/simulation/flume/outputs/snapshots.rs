@@ -7,6 +7,7 @@ use std::path::Path;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::surface::{SurfaceSeries, WaterParts};
 use crate::simulation::flume::Simulation;
 use crate::{
     case::{FluidField, Output},
@@ -28,6 +29,7 @@ pub const UNIT_FIELDS: [(&str, FieldKind); 2] = [("velocity", FieldKind::Vector)
 pub struct SnapshotFiles {
     water: Option<PolyDataSeries>,
     surfaces: Option<PolyDataSeries>,
+    water_surface: Option<SurfaceSeries>,
 }
 
 impl SnapshotFiles {
@@ -42,15 +44,20 @@ impl SnapshotFiles {
         Ok(Self {
             water: simulation.case.output.fluid_interval.map(water).transpose()?,
             surfaces: surfaces_interval(simulation).map(surfaces).transpose()?,
+            water_surface: simulation.case.output.surface_interval.map(|_| SurfaceSeries::create(dir)).transpose()?,
         })
     }
 
-    /// Opens the files of an interrupted run. Keeps the first `water` snapshots of the water file and the first
-    /// `surfaces` snapshots of the surface file. Creates a file that the case requests only since the interruption.
+    /// Opens the files of an interrupted run. Keeps the first snapshots of each file: of the water, of the surfaces of
+    /// the units, and of the surface of the water. Creates a file that the case requests only since the interruption.
     ///
     /// # Errors
     /// If a file is missing or shorter than at the checkpoint.
-    pub fn reopen(simulation: &Simulation, dir: &Path, water: u64, surfaces: u64) -> Result<Self, OutputError> {
+    pub fn reopen(
+        simulation: &Simulation,
+        dir: &Path,
+        [water, surfaces, water_surface]: [u64; 3],
+    ) -> Result<Self, OutputError> {
         let fields = water_fields(&simulation.case.output);
         let open = |file: &str, cells: Cells, fields: &[(&str, FieldKind)], steps: u64| {
             PolyDataSeries::reopen(&dir.join(file), cells, fields, steps as usize)
@@ -60,7 +67,18 @@ impl SnapshotFiles {
         Ok(Self {
             water: simulation.case.output.fluid_interval.map(water).transpose()?,
             surfaces: surfaces_interval(simulation).map(surfaces).transpose()?,
+            water_surface: (simulation.case.output.surface_interval)
+                .map(|_| SurfaceSeries::reopen(dir, water_surface))
+                .transpose()?,
         })
+    }
+
+    /// Appends a snapshot of the surface of the water, if its file is open.
+    ///
+    /// # Errors
+    /// If the surface cannot be reconstructed or the file cannot be written.
+    pub fn append_water_surface(&mut self, water: &WaterParts) -> Result<(), OutputError> {
+        self.water_surface.as_mut().map_or(Ok(()), |series| series.append(water))
     }
 
     /// Appends a snapshot of the water, if its file is open.
@@ -128,7 +146,7 @@ impl Frame {
         let output = &simulation.case.output;
         let mut chosen: Vec<(&Water, Vec<u32>)> = Vec::new();
         for region in simulation.regions() {
-            chosen.push((&region.water, particles_in(region, output.fluid_box)));
+            chosen.push((&region.water, particles_in(region, region.own_x(), output.fluid_box)));
         }
         let tait = simulation.solver().parameters().tait;
         let column = |field: &FluidField| match field {
@@ -172,11 +190,10 @@ impl Frame {
     }
 }
 
-/// Returns the indices of the particles of a region that are inside a box [m], or everywhere if there is no box, but not
-/// in the buffers of the region.
-fn particles_in(region: &Simulation, corners: Option<[[f64; 3]; 2]>) -> Vec<u32> {
+/// Returns the indices of the particles of a region that are in a range of x and, if there is a box, inside the box [m].
+pub fn particles_in(region: &Simulation, [from, to]: [f64; 2], corners: Option<[[f64; 3]; 2]>) -> Vec<u32> {
     let corners = corners.unwrap_or([[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]]).map(DVec3::from_array);
-    let (position, [from, to]) = (&region.water.position, region.own_x());
+    let position = &region.water.position;
     let inside = |&i: &u32| {
         let place = position[i as usize];
         (from..to).contains(&place.x) && place.cmpge(corners[0]).all() && place.cmple(corners[1]).all()

@@ -1,0 +1,166 @@
+//! Water of the film: its surface if the run recorded it, otherwise its particles.
+
+use super::super::folder::RunFolder;
+use super::super::scene::bed_in;
+use super::super::water::round_up;
+use crate::output::{OutputError, PolyDataMoments};
+use crate::report::film::{DENSE, Field, Mesh, Series, packed_size};
+
+/// Largest size of the water in the page [bytes of base64 text].
+const BUDGET: usize = 9_000_000;
+/// Edge lengths of the cells in which points of the surface are merged, if the film would be too large [particle
+/// spacings].
+const CELLS: [f32; 6] = [0.0, 1.6, 2.2, 3.0, 4.5, 6.0];
+/// A triangle within this distance of a wall or the bed lies on it [particle spacings].
+const AT_WALL: f64 = 0.6;
+/// Share of the values within a colour scale [-]; higher values get its last colour.
+const SHARE_IN_SCALE: f64 = 0.995;
+
+/// Files with the water of a run.
+pub struct Water {
+    file: PolyDataMoments,
+    is_surface: bool,
+    /// Particle spacing [m].
+    spacing: f32,
+}
+
+/// How a frame is simplified.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Detail {
+    /// Points of the surface are merged in cells of this size [m]; 0 for all points.
+    Cell(f32),
+    /// One of so many particles is shown.
+    OneOf(usize),
+}
+
+impl Water {
+    /// Opens the file with the surface of the water or, if there is none, the file with its particles. Returns `None`
+    /// if the run recorded neither of them with velocities.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn open(run: &RunFolder) -> Result<Option<Self>, OutputError> {
+        for (name, is_surface) in [(RunFolder::SURFACE, true), (RunFolder::WATER, false)] {
+            if !run.has(name) {
+                continue;
+            }
+            let file = PolyDataMoments::open(&run.dir.join(name))?;
+            if file.has("velocity") && !file.times_s().is_empty() {
+                return Ok(Some(Self { file, is_surface, spacing: run.summary.dp_m as f32 }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Returns the recorded times [s].
+    pub fn times_s(&self) -> &[f64] {
+        self.file.times_s()
+    }
+
+    /// Returns the series of the water at some of the recorded times `frames`, and these times. Points are merged, and
+    /// then frames left out, until the water fits into its part of the page.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn series(&self, run: &RunFolder, frames: &[usize]) -> Result<(Series, Vec<usize>), OutputError> {
+        let samples = [frames.len() / 3, frames.len() / 2, frames.len() - 1].map(|index| frames[index]);
+        let sampled = samples.iter().map(|frame| self.mesh(run, *frame)).collect::<Result<Vec<Mesh>, _>>()?;
+        let mut series = self.without_frames(&sampled);
+        let details: Vec<Detail> = match self.is_surface {
+            true => CELLS.iter().map(|cells| Detail::Cell(cells * self.spacing)).collect(),
+            false => (0..8).map(|power| Detail::OneOf(1 << power)).collect(),
+        };
+        // Number of frames that fit into the page with a detail.
+        let affordable = |detail: Detail| {
+            let sizes = sampled.iter().map(|mesh| packed_size(&series, &simplified(mesh, detail)));
+            BUDGET / sizes.max().unwrap_or(0).max(1)
+        };
+        let choose = |detail: &Detail| affordable(*detail) >= frames.len();
+        let detail = details.iter().copied().find(choose).unwrap_or(details[details.len() - 1]);
+        let most = affordable(detail).clamp(2, frames.len().max(2));
+        let chosen: Vec<usize> = super::thinned(frames.len(), most).into_iter().map(|index| frames[index]).collect();
+        for frame in &chosen {
+            series.frames.push(simplified(&self.mesh(run, *frame)?, detail));
+        }
+        Ok((series, chosen))
+    }
+
+    fn without_frames(&self, sampled: &[Mesh]) -> Series {
+        let (name, opacity) = if self.is_surface { ("Water surface", 0.72) } else { ("Water particles", 1.0) };
+        let mut series = Series::new(name, "#5b9bd5", opacity, Vec::new());
+        series.smooth = self.is_surface;
+        series.dot = if self.is_surface { 0.0 } else { 0.95 * self.spacing };
+        let top = |field: usize| {
+            let highest = |mesh: &Mesh| {
+                let mut values = mesh.values[field].clone();
+                values.sort_by(f32::total_cmp);
+                values.get((SHARE_IN_SCALE * values.len() as f64) as usize).copied().unwrap_or(0.0)
+            };
+            round_up(f64::from(sampled.iter().map(highest).fold(0.0, f32::max))) as f32
+        };
+        let count = sampled.first().map_or(0, |mesh| mesh.values.len());
+        let names = [("speed", "m/s"), ("pressure", "Pa")].into_iter().take(count).enumerate();
+        series.fields =
+            names.map(|(index, (name, unit))| Field::numbers(name, unit, [0.0, top(index)], &DENSE)).collect();
+        series
+    }
+
+    /// Reads a frame with speed and pressure of its points. Of a surface, the parts on the bed and on the walls are left
+    /// out, because they would hide the units.
+    fn mesh(&self, run: &RunFolder, frame: usize) -> Result<Mesh, OutputError> {
+        let speed = |v: &[f32; 3]| v.iter().map(|c| c * c).sum::<f32>().sqrt();
+        let mut values = vec![self.file.vectors(frame, "velocity")?.iter().map(speed).collect()];
+        if self.file.has("pressure") {
+            values.push(self.file.numbers::<f32>(frame, "pressure")?);
+        }
+        let points = self.file.points(frame)?;
+        if !self.is_surface {
+            return Ok(Mesh { points, triangles: Vec::new(), values });
+        }
+        let mesh = Mesh { triangles: self.file.triangles(frame)?, points, values };
+        let reach = AT_WALL * f64::from(self.spacing);
+        let bed = Bed::new(run);
+        let is_at =
+            |corners: &[[f32; 3]; 3], test: &dyn Fn([f64; 3]) -> bool| corners.iter().all(|c| test(c.map(f64::from)));
+        Ok(mesh.filtered(|corners| {
+            let sides = [0.0, run.summary.domain_width_m];
+            !sides.iter().any(|side| is_at(corners, &|[_, y, _]| (y - side).abs() < reach))
+                && !is_at(corners, &|[x, _, z]| z < bed.z(x) + reach)
+        }))
+    }
+}
+
+fn simplified(mesh: &Mesh, detail: Detail) -> Mesh {
+    match detail {
+        Detail::Cell(0.0) | Detail::OneOf(1) => mesh.clone(),
+        Detail::Cell(cell) => mesh.clustered(cell),
+        Detail::OneOf(count) => {
+            fn every<T: Copy>(list: &[T], count: usize) -> Vec<T> {
+                list.iter().copied().step_by(count).collect()
+            }
+            let values = mesh.values.iter().map(|list| every(list, count)).collect();
+            Mesh { points: every(&mesh.points, count), triangles: Vec::new(), values }
+        }
+    }
+}
+
+/// The bed profile, for many positions.
+struct Bed {
+    points: Vec<[f64; 2]>,
+}
+
+impl Bed {
+    fn new(run: &RunFolder) -> Self {
+        let [begin, end] = run.summary.domain_x_m;
+        Self { points: bed_in(run, [begin, end]) }
+    }
+
+    /// Height of the bed [m]; negative infinity beyond its ends.
+    fn z(&self, x: f64) -> f64 {
+        let after = self.points.partition_point(|point| point[0] < x);
+        let (Some([x1, z1]), Some([x0, z0])) = (self.points.get(after), self.points.get(after.wrapping_sub(1))) else {
+            return f64::NEG_INFINITY;
+        };
+        z0 + (z1 - z0) * (x - x0) / (x1 - x0)
+    }
+}
