@@ -7,7 +7,7 @@
 
 use serde_json::{Value, json};
 
-use super::scene::{Bodies, Scene, Series};
+use super::scene::{Bodies, Scene, Seen, Series};
 use super::simplify::Mesh;
 
 /// Codes of the component types and targets in glTF.
@@ -50,7 +50,7 @@ impl File {
     /// Adds the frames of a series. Returns the indices of their nodes.
     fn series(&mut self, series: &Series, times: &[f32]) -> Vec<usize> {
         let colour = if series.fields.is_empty() { series.plain } else { "#ffffff" };
-        let material = self.material(colour, series.opacity);
+        let material = self.material(colour, series.opacity, series.seen == Seen::Both);
         let mut nodes = Vec::new();
         for (number, frame) in series.frames.iter().enumerate().filter(|(_, frame)| !frame.triangles.is_empty()) {
             let mesh = self.mesh(series, frame, material);
@@ -65,7 +65,7 @@ impl File {
 
     /// Adds the bodies, which share one mesh. Returns the indices of their nodes.
     fn bodies(&mut self, bodies: &Bodies, times: &[f32]) -> Vec<usize> {
-        let material = self.material(GREY, 1.0);
+        let material = self.material(GREY, 1.0, true);
         let series = Series::new(bodies.name, GREY, 1.0, Vec::new());
         let mesh = self.mesh(&series, &bodies.mesh, material);
         let input = self.times(times);
@@ -110,13 +110,13 @@ impl File {
         self.nodes.len() - 1
     }
 
-    fn material(&mut self, colour: &str, opacity: f32) -> usize {
+    fn material(&mut self, colour: &str, opacity: f32, is_double: bool) -> usize {
         let [r, g, b] = linear(colour);
         let mode = if opacity < 1.0 { "BLEND" } else { "OPAQUE" };
         self.materials.push(json!({
             "pbrMetallicRoughness": { "baseColorFactor": [r, g, b, opacity], "metallicFactor": 0.0, "roughnessFactor": 0.8 },
             "alphaMode": mode,
-            "doubleSided": true,
+            "doubleSided": is_double,
         }));
         self.materials.len() - 1
     }
@@ -141,7 +141,9 @@ impl File {
             }));
             attributes["COLOR_0"] = json!(self.accessors.len() - 1);
         }
-        let corners = mesh.triangles.as_flattened();
+        // A triangle of glTF is seen from the side on which its corners are counter-clockwise.
+        let turned = |[a, b, c]: &[u32; 3]| if series.seen == Seen::Inside { [*a, *c, *b] } else { [*a, *b, *c] };
+        let corners: Vec<u32> = mesh.triangles.iter().flat_map(turned).collect();
         let bytes: Vec<u8> = corners.iter().flat_map(|corner| corner.to_le_bytes()).collect();
         let view = self.view(&bytes, Some(ELEMENT_ARRAY_BUFFER));
         self.accessors.push(json!({

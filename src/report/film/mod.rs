@@ -20,7 +20,7 @@ mod simplify;
 pub use arrays::bounds;
 pub use glb::glb;
 pub use page::{packed_size, viewer_html};
-pub use scene::{Bodies, Body, Clock, DENSE, Field, NO_YES, Scene, Series, WARM};
+pub use scene::{Bodies, Body, Clock, DENSE, Field, NO_YES, Scene, Seen, Series, WARM};
 pub use simplify::Mesh;
 
 /// Style sheet of the viewer.

@@ -57,6 +57,7 @@ fn of_series(series: &Series, arrays: &mut Arrays) -> Value {
         "plain": series.plain,
         "opacity": series.opacity,
         "dot": series.dot,
+        "seen": series.seen,
         "smooth": series.smooth,
         "low": corners[0],
         "high": corners[1],

@@ -51,6 +51,8 @@ pub struct Series {
     pub opacity: f32,
     /// Diameter of a dot [m]; 0 for triangles.
     pub dot: f32,
+    /// Sides from which the triangles are seen.
+    pub seen: Seen,
     /// True if neighbouring triangles have no visible edge between them.
     pub smooth: bool,
     /// Fields by which the series can be coloured.
@@ -59,10 +61,20 @@ pub struct Series {
     pub frames: Vec<Mesh>,
 }
 
+/// Sides of a surface from which it is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Seen {
+    /// From both sides.
+    Both,
+    /// From inside only. A wall between viewer and scene is then not drawn.
+    Inside,
+}
+
 impl Series {
     /// Creates a series of triangles without fields.
     pub fn new(name: &'static str, plain: &'static str, opacity: f32, frames: Vec<Mesh>) -> Self {
-        Self { name, plain, opacity, dot: 0.0, smooth: false, fields: Vec::new(), frames }
+        Self { name, plain, opacity, dot: 0.0, seen: Seen::Both, smooth: false, fields: Vec::new(), frames }
     }
 }
 

@@ -78,6 +78,7 @@ class Drawing {
     gl.useProgram(this.program);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
+    gl.cullFace(gl.FRONT);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.clearColor(1, 1, 1, 1);
   }
@@ -216,6 +217,8 @@ class Drawing {
     gl.uniform3fv(uniforms.low, object.low);
     gl.uniform3fv(uniforms.span, object.span);
     gl.uniformMatrix4fv(uniforms.body, false, object.body || IDENTITY);
+    if (object.seen === "inside") gl.enable(gl.CULL_FACE);
+    else gl.disable(gl.CULL_FACE);
     gl.uniform1f(uniforms.dot_px, (object.dot || 0) * this.canvas.height / (2 * Math.tan(FIELD_OF_VIEW / 2)));
     gl.uniform3fv(uniforms.plain, rgb(object.plain));
     gl.uniform1f(uniforms.opacity, object.opacity);

@@ -33,7 +33,7 @@ pub fn film(run: &RunFolder, start_s: Option<f64>) -> Result<Option<Scene>, Outp
     series.extend(bed::obstacles(run));
     if let Some(water) = &water {
         let (of_water, chosen) = water.series(run, &frames)?;
-        series.push(of_water);
+        series.extend(of_water);
         frames = chosen;
     }
     let times: Vec<f64> = frames.iter().map(|frame| recorded[*frame]).collect();

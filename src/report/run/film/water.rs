@@ -4,15 +4,18 @@ use super::super::folder::RunFolder;
 use super::super::scene::bed_in;
 use super::super::water::round_up;
 use crate::output::{OutputError, PolyDataMoments};
-use crate::report::film::{DENSE, Field, Mesh, Series, packed_size};
+use crate::report::film::{DENSE, Field, Mesh, Seen, Series, packed_size};
 
 /// Largest size of the water in the page [bytes of base64 text].
 const BUDGET: usize = 9_000_000;
 /// Edge lengths of the cells in which points of the surface are merged, if the film would be too large [particle
 /// spacings].
 const CELLS: [f32; 6] = [0.0, 1.6, 2.2, 3.0, 4.5, 6.0];
-/// A triangle within this distance of a wall or the bed lies on it [particle spacings].
-const AT_WALL: f64 = 0.6;
+/// A point within this distance of a side wall or of the bed lies on it [particle spacings].
+const AT_SIDE: f64 = 0.6;
+const AT_BED: f64 = 1.0;
+/// Edge length of the cells in which points at the side walls are merged [particle spacings].
+const WALL_CELL: f32 = 2.0;
 /// Share of the values within a colour scale [-]; higher values get its last colour.
 const SHARE_IN_SCALE: f64 = 0.995;
 
@@ -57,14 +60,15 @@ impl Water {
         self.file.times_s()
     }
 
-    /// Returns the series of the water at some of the recorded times `frames`, and these times. Points are merged, and
-    /// then frames left out, until the water fits into its part of the page.
+    /// Returns the series of the water at some of the recorded times `frames`, and these times: the particles, or the
+    /// free surface and the water at the side walls. Points are merged, and then frames left out, until the water fits
+    /// into its part of the page.
     ///
     /// # Errors
     /// If the file cannot be read.
-    pub fn series(&self, run: &RunFolder, frames: &[usize]) -> Result<(Series, Vec<usize>), OutputError> {
+    pub fn series(&self, run: &RunFolder, frames: &[usize]) -> Result<(Vec<Series>, Vec<usize>), OutputError> {
         let samples = [frames.len() / 3, frames.len() / 2, frames.len() - 1].map(|index| frames[index]);
-        let sampled = samples.iter().map(|frame| self.mesh(run, *frame)).collect::<Result<Vec<Mesh>, _>>()?;
+        let sampled = samples.iter().map(|frame| self.parts(run, *frame)).collect::<Result<Vec<_>, _>>()?;
         let mut series = self.without_frames(&sampled);
         let details: Vec<Detail> = match self.is_surface {
             true => CELLS.iter().map(|cells| Detail::Cell(cells * self.spacing)).collect(),
@@ -72,42 +76,52 @@ impl Water {
         };
         // Number of frames that fit into the page with a detail.
         let affordable = |detail: Detail| {
-            let sizes = sampled.iter().map(|mesh| packed_size(&series, &simplified(mesh, detail)));
-            BUDGET / sizes.max().unwrap_or(0).max(1)
+            let size = |parts: &Vec<Mesh>| {
+                series.iter().zip(parts).map(|(series, mesh)| packed_size(series, &simplified(mesh, detail))).sum()
+            };
+            BUDGET / sampled.iter().map(size).max().unwrap_or(0).max(1_usize)
         };
         let choose = |detail: &Detail| affordable(*detail) >= frames.len();
         let detail = details.iter().copied().find(choose).unwrap_or(details[details.len() - 1]);
         let most = affordable(detail).clamp(2, frames.len().max(2));
         let chosen: Vec<usize> = super::thinned(frames.len(), most).into_iter().map(|index| frames[index]).collect();
         for frame in &chosen {
-            series.frames.push(simplified(&self.mesh(run, *frame)?, detail));
+            for (series, mesh) in series.iter_mut().zip(self.parts(run, *frame)?) {
+                series.frames.push(simplified(&mesh, detail));
+            }
         }
         Ok((series, chosen))
     }
 
-    fn without_frames(&self, sampled: &[Mesh]) -> Series {
-        let (name, opacity) = if self.is_surface { ("Water surface", 0.72) } else { ("Water particles", 1.0) };
-        let mut series = Series::new(name, "#5b9bd5", opacity, Vec::new());
-        series.smooth = self.is_surface;
-        series.dot = if self.is_surface { 0.0 } else { 0.95 * self.spacing };
+    fn without_frames(&self, sampled: &[Vec<Mesh>]) -> Vec<Series> {
         let top = |field: usize| {
             let highest = |mesh: &Mesh| {
                 let mut values = mesh.values[field].clone();
                 values.sort_by(f32::total_cmp);
                 values.get((SHARE_IN_SCALE * values.len() as f64) as usize).copied().unwrap_or(0.0)
             };
-            round_up(f64::from(sampled.iter().map(highest).fold(0.0, f32::max))) as f32
+            round_up(f64::from(sampled.iter().flatten().map(highest).fold(0.0, f32::max))) as f32
         };
-        let count = sampled.first().map_or(0, |mesh| mesh.values.len());
+        let count = sampled[0][0].values.len();
         let names = [("speed", "m/s"), ("pressure", "Pa")].into_iter().take(count).enumerate();
-        series.fields =
+        let fields: Vec<Field> =
             names.map(|(index, (name, unit))| Field::numbers(name, unit, [0.0, top(index)], &DENSE)).collect();
-        series
+        let named = |name: &'static str, opacity: f32| Series {
+            fields: fields.clone(),
+            ..Series::new(name, "#5b9bd5", opacity, Vec::new())
+        };
+        if self.is_surface {
+            let walls = Series { seen: Seen::Inside, ..named("Water at the far wall", 1.0) };
+            let surface = Series { smooth: true, ..named("Water surface", 0.72) };
+            vec![surface, walls]
+        } else {
+            vec![Series { dot: 0.95 * self.spacing, ..named("Water particles", 1.0) }]
+        }
     }
 
-    /// Reads a frame with speed and pressure of its points. Of a surface, the parts on the bed and on the walls are left
-    /// out, because they would hide the units.
-    fn mesh(&self, run: &RunFolder, frame: usize) -> Result<Mesh, OutputError> {
+    /// Reads a frame with speed and pressure of its points: the particles, or the free surface and the parts of the
+    /// surface at the two side walls. The part on the bed is left out.
+    fn parts(&self, run: &RunFolder, frame: usize) -> Result<Vec<Mesh>, OutputError> {
         let speed = |v: &[f32; 3]| v.iter().map(|c| c * c).sum::<f32>().sqrt();
         let mut values = vec![self.file.vectors(frame, "velocity")?.iter().map(speed).collect()];
         if self.file.has("pressure") {
@@ -115,18 +129,19 @@ impl Water {
         }
         let points = self.file.points(frame)?;
         if !self.is_surface {
-            return Ok(Mesh { points, triangles: Vec::new(), values });
+            return Ok(vec![Mesh { points, triangles: Vec::new(), values }]);
         }
         let mesh = Mesh { triangles: self.file.triangles(frame)?, points, values };
-        let reach = AT_WALL * f64::from(self.spacing);
+        let (spacing, width) = (f64::from(self.spacing), run.summary.domain_width_m);
         let bed = Bed::new(run);
-        let is_at =
-            |corners: &[[f32; 3]; 3], test: &dyn Fn([f64; 3]) -> bool| corners.iter().all(|c| test(c.map(f64::from)));
-        Ok(mesh.filtered(|corners| {
-            let sides = [0.0, run.summary.domain_width_m];
-            !sides.iter().any(|side| is_at(corners, &|[_, y, _]| (y - side).abs() < reach))
-                && !is_at(corners, &|[x, _, z]| z < bed.z(x) + reach)
-        }))
+        let at_side = |corner: &[f32; 3], side: f64| (f64::from(corner[1]) - side).abs() < AT_SIDE * spacing;
+        let at_bed = |corner: &[f32; 3]| f64::from(corner[2]) < bed.z(f64::from(corner[0])) + AT_BED * spacing;
+        let is_at_wall = |corners: &[[f32; 3]; 3]| {
+            corners.iter().all(|corner| at_side(corner, 0.0)) || corners.iter().all(|corner| at_side(corner, width))
+        };
+        let is_edge = |corner: &[f32; 3]| at_side(corner, 0.0) || at_side(corner, width) || at_bed(corner);
+        let free = mesh.filtered(|corners| !corners.iter().all(is_edge));
+        Ok(vec![free, mesh.filtered(is_at_wall).clustered(WALL_CELL * self.spacing)])
     }
 }
 
