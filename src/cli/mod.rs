@@ -15,14 +15,19 @@ mod input;
 mod machine;
 mod place;
 mod report;
-mod run;
+pub mod run;
 mod savings;
 mod schema;
 mod sweep;
 mod unit;
 mod wave;
 
-use std::{ffi::OsString, fmt::Display, process::ExitCode};
+use std::{
+    ffi::OsString,
+    fmt::{self, Display},
+    process::ExitCode,
+    sync::OnceLock,
+};
 
 use clap::{Parser, Subcommand};
 
@@ -71,11 +76,19 @@ enum Command {
 }
 
 /// Reason why a command failed, with its message.
-enum CommandError {
+#[derive(Debug)]
+pub enum CommandError {
     /// The input was refused, and the exit code is 2.
     Refused(String),
     /// The work failed, and the exit code is 1.
     Failed(String),
+}
+
+impl Display for CommandError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::Refused(reason) | Self::Failed(reason)) = self;
+        out.write_str(reason)
+    }
 }
 
 impl CommandError {
@@ -88,8 +101,25 @@ impl CommandError {
     }
 }
 
+/// How to start this program again, if not by the executable file of the process: the words before the command.
+static STARTED_BY: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// Runs the command that the arguments select, and returns the exit code, for a program that another program contains.
+/// `started_by` are the words that start the program, to which a sweep adds the command of one run.
+pub fn run_command_of<A: Into<OsString> + Clone>(
+    started_by: Vec<OsString>,
+    arguments: impl IntoIterator<Item = A>,
+) -> u8 {
+    STARTED_BY.get_or_init(|| started_by);
+    code_of(arguments)
+}
+
 /// Runs the command that the arguments select, and returns the exit code. The first argument is the program name.
 pub fn run_command<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) -> ExitCode {
+    ExitCode::from(code_of(arguments))
+}
+
+fn code_of<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) -> u8 {
     let command = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments.command,
         Err(message) => return print_message(&message),
@@ -112,25 +142,21 @@ pub fn run_command<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item 
         Command::Sweep(arguments) => arguments.execute(),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(CommandError::Refused(reason)) => {
-            eprintln!("{reason}");
-            ExitCode::from(2)
-        }
-        Err(CommandError::Failed(reason)) => {
-            eprintln!("{reason}");
-            ExitCode::FAILURE
+        Ok(()) => 0,
+        Err(error) => {
+            eprintln!("{error}");
+            if matches!(error, CommandError::Refused(_)) { 2 } else { 1 }
         }
     }
 }
 
 /// Prints the help, the version or an error of the command line, and returns the exit code.
-fn print_message(message: &clap::Error) -> ExitCode {
+fn print_message(message: &clap::Error) -> u8 {
     match message.print() {
-        Ok(()) => ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2)),
+        Ok(()) => u8::try_from(message.exit_code()).unwrap_or(2),
         Err(error) => {
             eprintln!("cannot write the help: {error}");
-            ExitCode::FAILURE
+            1
         }
     }
 }

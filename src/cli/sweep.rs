@@ -1,6 +1,7 @@
 //! `breakwater sweep`: many runs of one case with varied keys.
 
 use std::{
+    ffi::OsString,
     fs,
     path::{Path, PathBuf},
     sync::Arc,
@@ -96,8 +97,7 @@ impl SweepArguments {
         }
         // The paths are absolute, because the started processes may have other working directories.
         let absolute = |path: &Path| path.canonicalize().map_err(CommandError::failed);
-        let (sweep_file, dir, program) =
-            (absolute(&self.sweep)?, absolute(&dir)?, std::env::current_exe().map_err(CommandError::failed)?);
+        let (sweep_file, dir, program) = (absolute(&self.sweep)?, absolute(&dir)?, program()?);
         let device = self.device.device.to_string();
         let work = Work { sweep_file: &sweep_file, dir: &dir, threads: self.threads as usize, device: &device };
         println!("{}: {}, results in {}", sweep.title, counted(sweep.members.len(), "run"), dir.display());
@@ -132,14 +132,14 @@ impl SweepArguments {
         )))
     }
 
-    fn launch(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), CommandError> {
+    fn launch(&self, work: &Work, program: &[OsString], members: &[Member]) -> Result<(), CommandError> {
         match self.launcher {
             Launcher::Local => self.run_locally(work, program, members),
             Launcher::Slurm => self.run_by_slurm(work, program, members),
         }
     }
 
-    fn run_locally(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), CommandError> {
+    fn run_locally(&self, work: &Work, program: &[OsString], members: &[Member]) -> Result<(), CommandError> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let jobs = self.jobs.map_or_else(|| (cores / work.threads).max(1), |jobs| jobs as usize);
         let tell = |member: &Member, outcome: &Outcome, left: usize| {
@@ -153,7 +153,7 @@ impl SweepArguments {
         work.execute_all(program, members, jobs, tell).map_err(CommandError::failed)
     }
 
-    fn run_by_slurm(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), CommandError> {
+    fn run_by_slurm(&self, work: &Work, program: &[OsString], members: &[Member]) -> Result<(), CommandError> {
         for _ in 0..SUBMISSIONS {
             let script = slurm::write_script(work, program, members, &self.slurm_options);
             let Some(script) = script.map_err(CommandError::failed)? else { break };
@@ -196,11 +196,19 @@ impl SweepArguments {
                 }
             }
         };
-        let summary = flume::finish(ended, &dir)?;
+        let summary = flume::finish(ended, &dir, &options.control)?;
         if member.until.is_some() {
             return Ok(());
         }
         breakage::after_flume_run(&case, &summary, &dir, &options.control)
+    }
+}
+
+/// Returns the words that start this program.
+fn program() -> Result<Vec<OsString>, CommandError> {
+    match super::STARTED_BY.get() {
+        Some(words) => Ok(words.clone()),
+        None => Ok(vec![std::env::current_exe().map_err(CommandError::failed)?.into_os_string()]),
     }
 }
 

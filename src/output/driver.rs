@@ -8,7 +8,7 @@ use std::{
     path::{Path, PathBuf},
     sync::{
         Arc,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicU64, Ordering},
     },
 };
 
@@ -77,8 +77,31 @@ impl From<OutputError> for StepFailure {
 pub struct Control {
     /// True if progress is hidden.
     pub quiet: bool,
+    /// True if the command line prints no results either, because another program shows them.
+    pub silent: bool,
+    /// Progress for another program that shows it.
+    pub seen: Arc<Seen>,
     /// Stop signal: when set to true, the run writes a checkpoint and ends.
     pub stop: Arc<AtomicBool>,
+}
+
+/// Simulated time and end of a run in progress; another thread may read them at any time.
+#[derive(Debug, Default)]
+pub struct Seen {
+    /// The bits of the two numbers.
+    bits: [AtomicU64; 2],
+}
+
+impl Seen {
+    /// Returns the simulated time and the time at which the run ends at the latest [s]; both are 0 before the start.
+    pub fn times_s(&self) -> [f64; 2] {
+        self.bits.each_ref().map(|bits| f64::from_bits(bits.load(Ordering::Relaxed)))
+    }
+
+    fn set(&self, clock: &Clock) {
+        self.bits[0].store(clock.time.to_bits(), Ordering::Relaxed);
+        self.bits[1].store(clock.end.to_bits(), Ordering::Relaxed);
+    }
 }
 
 impl Control {
@@ -182,6 +205,7 @@ fn run_loop<R: Run>(mut run: R, dir: &Path, control: &Control) -> Result<R::Summ
         run.warnings()[warnings_shown..].iter().for_each(|warning| progress.warn(warning));
         warnings_shown = run.warnings().len();
         let clock = run.clock();
+        control.seen.set(&clock);
         match step {
             Step::Continues => progress.update(clock.time, clock.steps, || run.details()),
             Step::Ended(summary) => {

@@ -1,6 +1,7 @@
 //! Executes the runs of a sweep in parallel on this machine.
 
 use std::{
+    ffi::OsString,
     fs::File,
     io::{self, Write},
     path::Path,
@@ -31,8 +32,12 @@ pub struct Work<'a> {
 
 impl Work<'_> {
     /// Returns the command that starts or resumes one run.
-    pub fn command(&self, program: &Path, member: usize) -> Command {
-        let mut command = Command::new(program);
+    ///
+    /// # Panics
+    /// If `program`, the words that start the program, is empty.
+    pub fn command(&self, program: &[OsString], member: usize) -> Command {
+        let mut command = Command::new(&program[0]);
+        command.args(&program[1..]);
         command.arg("sweep").arg(self.sweep_file).arg("--out").arg(self.dir);
         command.args(["--member", &member.to_string(), "--threads", &self.threads.to_string()]);
         command.args(["--device", self.device]);
@@ -40,7 +45,7 @@ impl Work<'_> {
     }
 
     /// Executes a run with at most [`TRIES`] attempts; appends the output of the run to its log file.
-    fn execute(&self, program: &Path, member: &Member) -> io::Result<Outcome> {
+    fn execute(&self, program: &[OsString], member: &Member) -> io::Result<Outcome> {
         for attempt in 1..=TRIES {
             let log = File::options().create(true).append(true).open(member.log(self.dir))?;
             let mut command = self.command(program, member.number);
@@ -65,7 +70,7 @@ impl Work<'_> {
     /// If a process cannot be started or a log cannot be written.
     pub fn execute_all(
         &self,
-        program: &Path,
+        program: &[OsString],
         members: &[Member],
         jobs: usize,
         report: impl Fn(&Member, &Outcome, usize) + Sync,

@@ -1,6 +1,6 @@
 //! Executes the runs of a sweep as a job array of the Slurm workload manager.
 
-use std::{io, path::Path, process::Command, time::Duration};
+use std::{ffi::OsString, io, path::Path, process::Command, time::Duration};
 
 use super::{member::Outcome, plan::Member, queue::Work};
 use crate::output::{OutputError, write_atomically};
@@ -19,7 +19,7 @@ const POLL_INTERVAL: Duration = Duration::from_secs(5);
 /// If the script cannot be written.
 pub fn write_script(
     work: &Work,
-    program: &Path,
+    program: &[OsString],
     members: &[Member],
     options: &[String],
 ) -> Result<Option<std::path::PathBuf>, OutputError> {

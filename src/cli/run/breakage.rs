@@ -106,7 +106,9 @@ fn analyse(
     for impact in breakage.impacts.iter().filter(|impact| impact.failure.is_none()) {
         write_fracture_report(&dir.join(FOLDER).join(&impact.name)).map_err(CommandError::failed)?;
     }
-    tell(&breakage, dir);
+    if !control.silent {
+        tell(&breakage, dir);
+    }
     let failures: Vec<String> = breakage
         .impacts
         .iter()

@@ -22,14 +22,14 @@ const MOST_LINES: usize = 20;
 /// Runs a dry test from its start, then the breakage analysis if the case has the key `breakage`.
 pub(super) fn run_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<(), CommandError> {
     introduce(case, dir, control.quiet);
-    let summary = finish(run(case.clone(), dir, control), dir)?;
+    let summary = finish(run(case.clone(), dir, control), dir, control)?;
     breakage::after_dry_test(case, &summary, dir, control)
 }
 
 /// Continues a dry test from its last checkpoint, then makes the breakage analysis if the case has the key `breakage`.
 pub(super) fn resume_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<(), CommandError> {
     introduce(case, dir, control.quiet);
-    let summary = finish(resume(case.clone(), dir, control), dir)?;
+    let summary = finish(resume(case.clone(), dir, control), dir, control)?;
     breakage::after_dry_test(case, &summary, dir, control)
 }
 
@@ -51,8 +51,19 @@ fn introduce(case: &DryTestCase, dir: &Path, quiet: bool) {
 }
 
 /// Prints the results of a dry test and returns its summary.
-fn finish(ended: Result<DryTestSummary, RunError>, dir: &Path) -> Result<DryTestSummary, CommandError> {
+fn finish(
+    ended: Result<DryTestSummary, RunError>,
+    dir: &Path,
+    control: &Control,
+) -> Result<DryTestSummary, CommandError> {
     let summary = ended.map_err(|error| command_error(error, dir))?;
+    if !control.silent {
+        tell(&summary, dir);
+    }
+    Ok(summary)
+}
+
+fn tell(summary: &DryTestSummary, dir: &Path) {
     println!(
         "{:.2} s simulated in {} substeps and {} ({})",
         summary.simulated_s,
@@ -80,5 +91,4 @@ fn finish(ended: Result<DryTestSummary, RunError>, dir: &Path) -> Result<DryTest
         summary.kinetic_j
     );
     println!("summary: {}; units.vtkhdf opens in ParaView", dir.join(DryTestSummary::FILE).display());
-    Ok(summary)
 }

@@ -5,7 +5,11 @@ use std::{path::Path, sync::Arc};
 use super::{CommandError, breakage, command_error, report_error};
 use crate::{
     case::{Case, Reference},
-    output::{Summary, driver::RunError, progress::readable},
+    output::{
+        Summary,
+        driver::{Control, RunError},
+        progress::readable,
+    },
     report::run::write_report,
     simulation::flume::{
         branch::Start,
@@ -26,14 +30,14 @@ pub(super) fn run_case(
         Some(start) => start.run(dir, options),
         None => run(case.clone(), dir, options),
     };
-    let summary = finish(ended, dir)?;
+    let summary = finish(ended, dir, &options.control)?;
     breakage::after_flume_run(case, &summary, dir, &options.control)
 }
 
 /// Continues a flume run from its last checkpoint, then makes the breakage analysis if the case has the key `breakage`.
 pub(super) fn resume_case(case: &Arc<Case>, dir: &Path, options: &RunOptions) -> Result<(), CommandError> {
     introduce(case, dir, options);
-    let summary = finish(resume(case.clone(), dir, options), dir)?;
+    let summary = finish(resume(case.clone(), dir, options), dir, &options.control)?;
     breakage::after_flume_run(case, &summary, dir, &options.control)
 }
 
@@ -59,9 +63,20 @@ fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
 }
 
 /// Writes the report of a run, prints the results and returns the summary.
-pub(in crate::cli) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, CommandError> {
+pub(in crate::cli) fn finish(
+    ended: Result<Summary, RunError>,
+    dir: &Path,
+    control: &Control,
+) -> Result<Summary, CommandError> {
     let summary = ended.map_err(|error| command_error(error, dir))?;
     let report = write_report(dir).map_err(|error| report_error(error, dir))?;
+    if !control.silent {
+        tell(&summary, &report, dir);
+    }
+    Ok(summary)
+}
+
+fn tell(summary: &Summary, report: &Path, dir: &Path) {
     println!(
         "{:.2} s simulated in {} steps and {} ({})",
         summary.simulated_s,
@@ -80,5 +95,4 @@ pub(in crate::cli) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Re
     if Reference::folder_of_run(dir).is_some() {
         println!("compare with the measurements: breakwater compare {}", dir.display());
     }
-    Ok(summary)
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, command_error, report_error, require_checkpoint};
+use super::{CommandError, command_error, report_error};
 use crate::{
     case::{FractureCase, InputKind},
     cli::{
@@ -19,7 +19,6 @@ use crate::{
     },
     report::fracture::write_fracture_report,
     simulation::fracture::{
-        checkpoint,
         detail::tets_bytes,
         run::{resume, run, world},
         summary::FractureSummary,
@@ -49,21 +48,29 @@ impl FractureArguments {
         let case = FractureCase::from_document(&document).map_err(CommandError::refused)?;
         show_warnings(&case.warnings);
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
-        let control = self.machine.prepare()?;
-        let world = at_start(&case, &self.case)?;
-        fresh_folder(&dir, self.overwrite)?;
-        introduce(&case, &dir, &control);
-        finish(run(&case, world, &dir, &control), &dir)
+        run_case(&case, &self.case, &dir, self.overwrite, &self.machine.prepare()?)
     }
 }
 
+/// Runs a fracture case from its start; `path` names the case file in errors.
+pub(super) fn run_case(
+    case: &FractureCase,
+    path: &Path,
+    dir: &Path,
+    overwrite: bool,
+    control: &Control,
+) -> Result<(), CommandError> {
+    let world = at_start(case, path)?;
+    fresh_folder(dir, overwrite)?;
+    introduce(case, dir, control);
+    finish(run(case, world, dir, control), dir, control)
+}
+
 /// Continues an interrupted fracture run from its last checkpoint.
-pub(super) fn resume_run(case: &FractureCase, dir: &Path, machine: &MachineArguments) -> Result<(), CommandError> {
-    require_checkpoint(dir, checkpoint::FILE)?;
-    let control = machine.prepare()?;
+pub(super) fn resume_case(case: &FractureCase, dir: &Path, control: &Control) -> Result<(), CommandError> {
     let world = at_start(case, &dir.join("case.json"))?;
-    introduce(case, dir, &control);
-    finish(resume(case, world, dir, &control), dir)
+    introduce(case, dir, control);
+    finish(resume(case, world, dir, control), dir, control)
 }
 
 /// Builds the initial state of a fracture case; `path` names the case file in errors.
@@ -79,11 +86,13 @@ fn introduce(case: &FractureCase, dir: &Path, control: &Control) {
 }
 
 /// Writes the report of a run and prints the results.
-fn finish(ended: Result<FractureSummary, RunError>, dir: &Path) -> Result<(), CommandError> {
+fn finish(ended: Result<FractureSummary, RunError>, dir: &Path, control: &Control) -> Result<(), CommandError> {
     let summary = ended.map_err(|error| command_error(error, dir))?;
     let report = write_fracture_report(dir).map_err(|error| report_error(error, dir))?;
-    tell(&summary, dir);
-    println!("report: {}", report.display());
+    if !control.silent {
+        tell(&summary, dir);
+        println!("report: {}", report.display());
+    }
     Ok(())
 }
 

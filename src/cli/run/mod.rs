@@ -22,7 +22,11 @@ use super::{
 };
 use crate::{
     case::{Document, InputFile, InputKind},
-    output::{OutputError, Summary, driver::RunError, write_atomically},
+    output::{
+        OutputError, Summary,
+        driver::{Control, RunError},
+        write_atomically,
+    },
     simulation::{
         dry_test::recorder::DryTestRecorder,
         flume::{
@@ -30,6 +34,7 @@ use crate::{
             outputs::checkpoint::{Checkpoint, device_of},
             run::RunOptions,
         },
+        fracture::checkpoint as fracture_checkpoint,
     },
     sph::device::DeviceChoice,
 };
@@ -79,60 +84,119 @@ impl RunArguments {
         let case = load(&self.case, &[InputKind::Flume, InputKind::DryTest])?;
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
         let control = self.machine.prepare()?;
+        let job = Job { path: &self.case, dir: &dir, overwrite: self.overwrite, device: self.device, control };
+        job.run(case, self.from.as_deref())
+    }
+}
+
+/// A run from the start of its case: everything except the case.
+struct Job<'a> {
+    /// Path of the case file, for messages.
+    path: &'a Path,
+    /// Folder of the results.
+    dir: &'a Path,
+    /// True if the results of an earlier run in the folder are deleted.
+    overwrite: bool,
+    device: DeviceArgument,
+    control: Control,
+}
+
+impl Job<'_> {
+    /// Runs a case of any kind, from its start or from the last checkpoint of the flume run in the folder `from`.
+    fn run(self, case: InputFile, from: Option<&Path>) -> Result<(), CommandError> {
+        let Self { path, dir, overwrite, device, control } = self;
+        if let (Some(from), false) = (from, matches!(case, InputFile::Flume(_))) {
+            let what = "only flume cases can begin at the checkpoint of another run";
+            return Err(CommandError::refused(format!("--from {}: {what}", from.display())));
+        }
         match case {
             InputFile::Flume(case) => {
                 let case = Arc::from(case);
-                let device = self.device.open(&case, control.quiet)?;
+                let device = device.open(&case, control.quiet)?;
                 let options = RunOptions { device, control, until: None };
-                let start = match &self.from {
-                    Some(from) if is_same_folder(from, &dir) => {
+                let start = match from {
+                    Some(from) if is_same_folder(from, dir) => {
                         let what = "is the folder of the results; choose another folder with --out DIR";
                         return Err(CommandError::refused(format!("--from {}: {what}", from.display())));
                     }
                     Some(from) => Some(Start::at(Arc::clone(&case), from, &options).map_err(CommandError::refused)?),
                     None => None,
                 };
-                fresh_folder(&dir, self.overwrite)?;
-                flume::run_case(&case, start, &dir, &options)
+                fresh_folder(dir, overwrite)?;
+                flume::run_case(&case, start, dir, &options)
             }
             InputFile::DryTest(case) => {
-                self.device.refuse_card()?;
-                if let Some(from) = &self.from {
-                    let what = "only flume cases can begin at the checkpoint of another run";
-                    return Err(CommandError::refused(format!("--from {}: {what}", from.display())));
-                }
-                fresh_folder(&dir, self.overwrite)?;
-                dry_test::run_case(&Arc::from(case), &dir, &control)
+                device.refuse_card()?;
+                fresh_folder(dir, overwrite)?;
+                dry_test::run_case(&Arc::from(case), dir, &control)
             }
-            other => Err(other_kind(&self.case, other.kind())),
+            InputFile::Fracture(case) => fracture::run_case(&case, path, dir, overwrite, &control),
+            other => Err(other_kind(path, other.kind())),
         }
     }
 }
 
+/// Runs a case of any kind for another program, into the folder `dir`.
+///
+/// # Errors
+/// If the case cannot be set up, the folder is not empty, or the run fails.
+pub fn run_for(
+    case: InputFile,
+    path: &Path,
+    dir: &Path,
+    overwrite: bool,
+    device: DeviceChoice,
+    control: Control,
+) -> Result<(), CommandError> {
+    Job { path, dir, overwrite, device: DeviceArgument { device }, control }.run(case, None)
+}
+
+/// Continues the run in the folder `dir` for another program.
+///
+/// # Errors
+/// If the folder has no checkpoint, or the run fails.
+pub fn resume_for(dir: &Path, device: Option<DeviceChoice>, control: Control) -> Result<(), CommandError> {
+    continue_run(dir, device, || Ok(control))
+}
+
 impl ResumeArguments {
     pub(super) fn execute(self) -> Result<(), CommandError> {
-        let kinds = [InputKind::Flume, InputKind::DryTest, InputKind::Fracture];
         if let Some(until) = self.until {
-            set_duration(&self.dir, &kinds, until)?;
+            set_duration(&self.dir, until)?;
         }
-        match load_run(&self.dir, &kinds)? {
-            InputFile::Flume(case) => {
-                require_checkpoint(&self.dir, Checkpoint::FILE)?;
-                let (case, control) = (Arc::from(case), self.machine.prepare()?);
-                let before = || device_of(&self.dir).map_or(DeviceChoice::Auto, |name| DeviceChoice::named(&name));
-                let device = DeviceArgument { device: self.device.unwrap_or_else(before) };
-                let device = device.open(&case, control.quiet)?;
-                flume::resume_case(&case, &self.dir, &RunOptions { device, control, until: None })
-            }
-            InputFile::DryTest(case) => {
-                require_checkpoint(&self.dir, DryTestRecorder::CHECKPOINT)?;
-                let control = self.machine.prepare()?;
-                DeviceArgument { device: self.device.unwrap_or_default() }.refuse_card()?;
-                dry_test::resume_case(&Arc::from(case), &self.dir, &control)
-            }
-            InputFile::Fracture(case) => fracture::resume_run(&case, &self.dir, &self.machine),
-            other => Err(other_kind(&self.dir, other.kind())),
+        continue_run(&self.dir, self.device, || self.machine.prepare())
+    }
+}
+
+/// Kinds of input whose runs can continue.
+const KINDS: [InputKind; 3] = [InputKind::Flume, InputKind::DryTest, InputKind::Fracture];
+
+/// Continues the run in a folder. `prepare` is called after the case and its checkpoint have been found.
+fn continue_run(
+    dir: &Path,
+    device: Option<DeviceChoice>,
+    prepare: impl FnOnce() -> Result<Control, CommandError>,
+) -> Result<(), CommandError> {
+    match load_run(dir, &KINDS)? {
+        InputFile::Flume(case) => {
+            require_checkpoint(dir, Checkpoint::FILE)?;
+            let (case, control) = (Arc::from(case), prepare()?);
+            let before = || device_of(dir).map_or(DeviceChoice::Auto, |name| DeviceChoice::named(&name));
+            let device = DeviceArgument { device: device.unwrap_or_else(before) };
+            let device = device.open(&case, control.quiet)?;
+            flume::resume_case(&case, dir, &RunOptions { device, control, until: None })
         }
+        InputFile::DryTest(case) => {
+            require_checkpoint(dir, DryTestRecorder::CHECKPOINT)?;
+            let control = prepare()?;
+            DeviceArgument { device: device.unwrap_or_default() }.refuse_card()?;
+            dry_test::resume_case(&Arc::from(case), dir, &control)
+        }
+        InputFile::Fracture(case) => {
+            require_checkpoint(dir, fracture_checkpoint::FILE)?;
+            fracture::resume_case(&case, dir, &prepare()?)
+        }
+        other => Err(other_kind(dir, other.kind())),
     }
 }
 
@@ -151,9 +215,9 @@ fn require_checkpoint(dir: &Path, file: &str) -> Result<(), CommandError> {
 }
 
 /// Writes `stop.duration_s` into the case.json of a run folder. Refuses a value with which the case is not valid.
-fn set_duration(dir: &Path, kinds: &[InputKind], until: f64) -> Result<(), CommandError> {
+fn set_duration(dir: &Path, until: f64) -> Result<(), CommandError> {
     let refused = |error: &dyn std::fmt::Display| CommandError::refused(format!("--until {until}: {error}"));
-    let document = read_run(dir, kinds)?;
+    let document = read_run(dir, &KINDS)?;
     let mut keys: Map<String, Value> = document.parse().map_err(CommandError::refused)?;
     if let Some(stop) = keys.get_mut("stop").and_then(Value::as_object_mut) {
         stop.insert("duration_s".to_owned(), until.into());

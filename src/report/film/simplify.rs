@@ -33,6 +33,14 @@ impl Mesh {
         }
     }
 
+    /// Appends a mesh with the same fields.
+    pub fn append(&mut self, other: &Self) {
+        let first = self.points.len() as u32;
+        self.triangles.extend(other.triangles.iter().map(|triangle| triangle.map(|corner| first + corner)));
+        self.points.extend(&other.points);
+        self.values.iter_mut().zip(&other.values).for_each(|(list, values)| list.extend(values));
+    }
+
     /// Returns the unit normal at each point: the mean over its triangles, weighted with their areas.
     pub fn normals(&self) -> Vec<[f32; 3]> {
         let mut normals = vec![Vec3::ZERO; self.points.len()];

@@ -46,7 +46,7 @@ function connect(film) {
   });
 
   const layers = get("layers");
-  for (const layer of [...film.series, film.bodies].filter(Boolean)) addLayer(film, layers, layer);
+  for (const parts of layersOf(film)) addLayer(film, layers, parts);
   showLegend(film);
   connectPointer(film, canvas, changed);
   canvas.addEventListener("keydown", (event) => {
@@ -59,14 +59,26 @@ function connect(film) {
   connectRecorder(film, canvas, get("record"));
 }
 
+// Returns the layers of a film. Series with the same name are parts of one layer.
+function layersOf(film) {
+  const layers = new Map();
+  for (const part of [...film.series, film.bodies].filter(Boolean)) {
+    layers.set(part.name, [...(layers.get(part.name) || []), part]);
+  }
+  return [...layers.values()];
+}
+
 // Adds the switch of a layer, and the list of its colours.
-function addLayer(film, parent, layer) {
+function addLayer(film, parent, parts) {
+  const [layer] = parts;
   const row = element("span", { class: "film-layer" });
   const label = element("label");
   const box = element("input", { type: "checkbox" });
   box.checked = layer.visible;
   box.addEventListener("change", () => {
-    layer.visible = box.checked;
+    parts.forEach((part) => {
+      part.visible = box.checked;
+    });
     showLegend(film);
     film.isStale = true;
   });
@@ -76,7 +88,9 @@ function addLayer(film, parent, layer) {
     const choice = element("select", { "aria-label": `colour of: ${layer.name}` });
     layer.fields.forEach((field, index) => choice.append(element("option", { value: index }, field.name)));
     choice.addEventListener("change", () => {
-      layer.field = Number(choice.value);
+      parts.forEach((part) => {
+        part.field = Number(choice.value);
+      });
       showLegend(film);
       film.isStale = true;
     });
@@ -88,7 +102,7 @@ function addLayer(film, parent, layer) {
 function showLegend(film) {
   const legend = document.getElementById("film-legend");
   legend.replaceChildren();
-  for (const layer of [...film.series, film.bodies].filter((one) => one?.visible && one.fields.length > 0)) {
+  for (const [layer] of layersOf(film).filter(([one]) => one.visible && one.fields.length > 0)) {
     const field = layer.fields[layer.field];
     const row = element("div", { class: "film-scale" });
     const name = `${layer.name}: ${field.name}${field.unit ? ` [${field.unit}]` : ""}`;

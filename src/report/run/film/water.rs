@@ -12,7 +12,7 @@ const BUDGET: usize = 9_000_000;
 /// spacings].
 const CELLS: [f32; 6] = [0.0, 1.6, 2.2, 3.0, 4.5, 6.0];
 /// A point within this distance of a side wall or of the bed lies on it [particle spacings].
-const AT_SIDE: f64 = 0.6;
+const AT_SIDE: f64 = 1.0;
 const AT_BED: f64 = 1.0;
 /// Edge length of the cells in which points at the side walls are merged [particle spacings].
 const WALL_CELL: f32 = 2.0;
@@ -111,11 +111,11 @@ impl Water {
             ..Series::new(name, "#5b9bd5", opacity, Vec::new())
         };
         if self.is_surface {
-            let walls = Series { seen: Seen::Inside, ..named("Water at the far wall", 1.0) };
-            let surface = Series { smooth: true, ..named("Water surface", 0.72) };
+            let walls = Series { seen: Seen::Inside, smooth: true, ..named("Water", 1.0) };
+            let surface = Series { smooth: true, ..named("Water", 0.72) };
             vec![surface, walls]
         } else {
-            vec![Series { dot: 0.95 * self.spacing, ..named("Water particles", 1.0) }]
+            vec![Series { dot: 0.95 * self.spacing, ..named("Water", 1.0) }]
         }
     }
 
@@ -136,13 +136,27 @@ impl Water {
         let bed = Bed::new(run);
         let at_side = |corner: &[f32; 3], side: f64| (f64::from(corner[1]) - side).abs() < AT_SIDE * spacing;
         let at_bed = |corner: &[f32; 3]| f64::from(corner[2]) < bed.z(f64::from(corner[0])) + AT_BED * spacing;
-        let is_at_wall = |corners: &[[f32; 3]; 3]| {
-            corners.iter().all(|corner| at_side(corner, 0.0)) || corners.iter().all(|corner| at_side(corner, width))
+        // The edge between a side wall and the bed belongs to the wall.
+        let is_at = |corners: &[[f32; 3]; 3], side: f64| {
+            corners.iter().all(|corner| at_side(corner, side) || at_bed(corner))
+                && corners.iter().any(|corner| at_side(corner, side))
         };
         let is_edge = |corner: &[f32; 3]| at_side(corner, 0.0) || at_side(corner, width) || at_bed(corner);
         let free = mesh.filtered(|corners| !corners.iter().all(is_edge));
-        Ok(vec![free, mesh.filtered(is_at_wall).clustered(WALL_CELL * self.spacing)])
+        let mut walls = Mesh { values: vec![Vec::new(); mesh.values.len()], ..Mesh::default() };
+        for (side, outwards) in [(0.0, -1.0), (width, 1.0)] {
+            let wall = mesh.filtered(|corners| is_at(corners, side)).clustered(WALL_CELL * self.spacing);
+            // Merged points can turn a triangle over: it would be seen from outside.
+            walls.append(&wall.filtered(|corners| outwards * normal(corners)[1] > 0.0));
+        }
+        Ok(vec![free, walls])
     }
+}
+
+/// Normal of a triangle, of any length.
+fn normal(corners: &[[f32; 3]; 3]) -> [f32; 3] {
+    let [a, b, c] = corners.map(glam::Vec3::from_array);
+    (b - a).cross(c - a).to_array()
 }
 
 fn simplified(mesh: &Mesh, detail: Detail) -> Mesh {

@@ -1,0 +1,84 @@
+"""Sweeps: many runs of one case in which the values of some keys vary."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any, Mapping
+
+import pandas as pd
+
+from . import _native
+from .errors import RunError, call
+from .runs import FractureRun, Run, open_run
+
+
+class Sweep:
+    """The folder of a sweep."""
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path)
+        if not (self.path / "sweep.csv").exists():
+            raise RunError(f"{self.path}: is not the folder of a finished sweep, because sweep.csv is missing")
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """One row per run: values of the keys, damage ratio, displacements."""
+        return pd.read_csv(self.path / "sweep.csv")
+
+    @property
+    def runs(self) -> list[Run | FractureRun]:
+        """The finished runs, in the order of the table."""
+        folders = sorted(folder for folder in self.path.iterdir() if (folder / "summary.json").exists())
+        return [open_run(folder) for folder in folders]
+
+    def __repr__(self) -> str:
+        return f"Sweep({os.fspath(self.path)!r})"
+
+
+def sweep(
+    source: str | os.PathLike[str] | Mapping[str, Any],
+    out: str | os.PathLike[str],
+    *,
+    threads: int = 1,
+    jobs: int | None = None,
+    device: str = "auto",
+    progress: bool = True,
+) -> Sweep:
+    """Makes the runs of a sweep into the folder `out`, each in a process of its own, and returns the results.
+
+    `source` is a sweep file, or its keys: `{"title": ..., "case": path, "vary": [{"key": ..., "values": [...]}]}`.
+    `jobs` is the number of runs at the same time, each with `threads` threads. Finished runs are kept: after an
+    interruption, the same call continues.
+
+    Raises `CaseError` if the sweep is not valid, `RunError` if a run fails.
+    """
+    out = Path(out)
+    out.mkdir(parents=True, exist_ok=True)
+    if isinstance(source, Mapping):
+        keys = dict(source)
+        if "case" in keys:
+            keys["case"] = os.path.relpath(keys["case"], out)
+        file = out / "sweep.json"
+        file.write_text(json.dumps(keys, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+    else:
+        file = Path(source)
+    call(_native.check, file.read_text(encoding="utf-8"), os.fspath(file))
+    command = [sys.executable, "-m", "breakwater_sim", "sweep", os.fspath(file), "--out", os.fspath(out)]
+    command += ["--threads", str(threads), "--device", device, *(["--jobs", str(jobs)] if jobs else [])]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        lines = []
+        try:
+            for line in process.stdout:
+                lines.append(line)
+                if progress:
+                    print(line, end="", file=sys.stderr)
+        except KeyboardInterrupt:
+            process.terminate()
+            raise
+    if process.returncode != 0:
+        raise RunError("".join(lines[-20:]).strip())
+    return Sweep(out)
