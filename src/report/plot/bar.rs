@@ -1,6 +1,6 @@
 //! Bar charts.
 
-use super::{Axis, Frame, escape, marks, short, text};
+use super::{Axis, Frame, LETTER, escape, marks, short, text};
 
 /// A series of a bar chart, with one bar per group.
 #[derive(Debug, Clone, Default)]
@@ -54,6 +54,7 @@ impl BarChart {
         let pitch = (frame.right - frame.left) / self.groups.len().max(1) as f64;
         let slots = if self.stacked { 1 } else { self.bars.len().max(1) };
         let bar_width = (0.76 * pitch / slots as f64).min(34.0);
+        let every = self.named_groups(pitch);
         for (group, name) in self.groups.iter().enumerate() {
             let middle = frame.left + pitch * (group as f64 + 0.5);
             let first = middle - 0.5 * bar_width * slots as f64;
@@ -73,7 +74,9 @@ impl BarChart {
                     short(value, 4)
                 );
             }
-            svg += &text(middle, frame.bottom + 18.0, "tick mid", name);
+            if group % every == 0 {
+                svg += &text(middle, frame.bottom + 18.0, "tick mid", name);
+            }
         }
         svg += &frame.horizontal_label(&self.x_label);
         svg += &marks(&frame, &y, &self.marks);
@@ -88,7 +91,22 @@ impl BarChart {
         svg += &frame.legend(&entries);
         svg + "</svg>\n"
     }
+
+    /// Returns the distance between groups whose names are written, so that the names do not overlap; `pitch` is the
+    /// distance between the middles of two groups [px]. The distance is 1, 2 or 5, or ten times such a number, and so on.
+    fn named_groups(&self, pitch: f64) -> usize {
+        let letters = self.groups.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+        let width = LETTER * letters as f64 + NAME_GAP;
+        let mut every = [1, 2, 5];
+        while every[2] as f64 * pitch < width {
+            every = every.map(|number| 10 * number);
+        }
+        every.into_iter().find(|number| *number as f64 * pitch >= width).unwrap_or(every[2])
+    }
 }
+
+/// Smallest gap between the names of two groups [px].
+const NAME_GAP: f64 = 5.0;
 
 fn class(bars: &Bars) -> String {
     let hollow = if bars.hollow { " hollow" } else { "" };
@@ -98,6 +116,23 @@ fn class(bars: &Bars) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_of_many_groups_do_not_overlap() {
+        let names =
+            |count: usize| BarChart { groups: (1..=count).map(|n| n.to_string()).collect(), ..Default::default() };
+        assert_eq!(names(15).named_groups(50.0), 1);
+        // Three letters need 27 px: 15 groups of 1.8 px.
+        assert_eq!(names(500).named_groups(1.8), 20);
+        let chart = BarChart {
+            bars: vec![Bars { values: vec![0.1; 500], ..Bars::default() }],
+            size: [920.0, 300.0],
+            ..names(500)
+        };
+        let svg = chart.svg();
+        assert_eq!(svg.matches("<rect").count(), 500);
+        assert_eq!(svg.matches("class=\"tick mid\"").count(), 25);
+    }
 
     #[test]
     fn missing_values_have_no_bar() {

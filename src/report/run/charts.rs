@@ -12,6 +12,8 @@ const HALF: [f64; 2] = [452.0, 250.0];
 /// If a chart has at most this number of units, each unit has its own colour. Otherwise all odd units have one colour
 /// and all even units another colour.
 const COLOURED_UNITS: usize = 6;
+/// If a chart has more units, it shows their mean and their extremes instead of one line per unit.
+const MOST_LINES: usize = 40;
 
 /// Bar chart of the displacement of each unit, with damage distance and mean displacement.
 pub fn displacements(run: &RunFolder) -> String {
@@ -54,8 +56,29 @@ pub fn paths(run: &RunFolder) -> String {
         let start = motion.position_m.first().map_or(0.0, |p| p[0]);
         motion.time_s.iter().zip(&motion.position_m).map(|(t, p)| [*t, p[0] - start]).collect()
     };
-    let lines = unit_lines(&run.motions, shoreward);
+    let lines = if run.motions.len() > MOST_LINES {
+        mean_and_extremes(&run.motions, shoreward)
+    } else {
+        unit_lines(&run.motions, shoreward)
+    };
     line_chart("Shoreward displacement of the units", "x \u{2212} x(0) [m]", lines, WIDE)
+}
+
+/// Returns the mean over the units with a band of the standard deviation, and the two units that end furthest apart.
+fn mean_and_extremes(motions: &[UnitMotion], points: impl Fn(&UnitMotion) -> Vec<[f64; 2]>) -> Vec<Line> {
+    let all: Vec<Vec<[f64; 2]>> = motions.iter().map(points).collect();
+    let end = |points: &[[f64; 2]]| points.last().map_or(0.0, |point| point[1]);
+    let number = |index: usize| format!("unit {}", motions[index].unit);
+    let order = |a: &usize, b: &usize| end(&all[*a]).total_cmp(&end(&all[*b]));
+    let extremes = [(0..all.len()).min_by(order), (0..all.len()).max_by(order)];
+    let mut lines: Vec<Line> = (extremes.into_iter().flatten().zip([2, 1]))
+        .map(|(index, colour)| Line { name: number(index), points: all[index].clone(), colour, ..Line::default() })
+        .collect();
+    let values: Vec<Vec<f64>> = all.iter().map(|points| points.iter().map(|point| point[1]).collect()).collect();
+    let (mean, band) = mean_and_deviation(&values);
+    let points = all.first().into_iter().flatten().zip(mean).map(|(point, value)| [point[0], value]).collect();
+    lines.push(Line { name: "mean of all units".to_owned(), points, colour: 0, band, ..Line::default() });
+    lines
 }
 
 /// Returns one line per unit, with colours as described at [`COLOURED_UNITS`].

@@ -7,6 +7,9 @@ use super::scene::{ImpactScene, Poses, bed_in, range, unit_radius};
 use super::solids::ViewDirection;
 use super::window::{Window, label, svg};
 
+/// Space that the number of a unit needs [px].
+const NUMBER: [f64; 2] = [26.0, 14.0];
+
 /// Returns the three views of a run: side view before the wave, side view after the wave, top view. Empty without
 /// units.
 pub fn views(run: &RunFolder) -> String {
@@ -25,8 +28,8 @@ pub fn views(run: &RunFolder) -> String {
     let sides = if run.summary.side_walls { "with side walls" } else { "periodic across the flume" };
     html += &format!(
         "<figure>{}<figcaption>Top view, {sides}. Outlines: initial positions. Solid: final positions. Arrows: \
-         displacements. Thin lines: corners of the bed profile, such as toes and crest edges of the mound.\
-         </figcaption></figure>\n",
+         displacements. Thin lines: corners of the bed profile, such as toes and crest edges of the mound. Numbers \
+         that would overlap are left out.</figcaption></figure>\n",
         top_view(run, x, &ends)
     );
     html
@@ -66,11 +69,16 @@ fn top_view(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
         drawing += &scene.outline(poses[0]);
     }
     drawing += &scene.units(&poses_at(ends, 1), true);
+    let mut taken: Vec<[f64; 2]> = Vec::new();
     for (unit, poses) in ends {
         let [from, to] = poses.map(|pose| window.at(pose.position_m[0], pose.position_m[1]));
         drawing += &arrow(from, to);
-        let beyond = to[0] + 1.05 * radius * window.scale;
-        drawing += &label(beyond + 4.0, to[1] + 4.0, "note halo", &unit.to_string());
+        let place = [to[0] + 1.05 * radius * window.scale + 4.0, to[1] + 4.0];
+        let overlaps = |other: &[f64; 2]| (0..2).all(|axis| (place[axis] - other[axis]).abs() < NUMBER[axis]);
+        if !taken.iter().any(overlaps) {
+            drawing += &label(place[0], place[1], "note halo", &unit.to_string());
+            taken.push(place);
+        }
     }
     drawing += &format!("<path class=\"side\" d=\"M{left:.1} {top:.1}H{right:.1}M{left:.1} {bottom:.1}H{right:.1}\"/>");
     let title = "Top view of the units before and after the wave";
