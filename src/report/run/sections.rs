@@ -151,7 +151,7 @@ fn unit_table(summary: &Summary) -> String {
     let rows: String = summary.units.iter().map(row).collect();
     let mean = summary.mean_displacement_m.unwrap_or(0.0);
     format!(
-        "<div class=\"scroll tall\"><table>\n<thead><tr><th>Unit</th><th>Displace&shy;ment [m]</th><th>Damaged</th><th>Direction [&deg;]</th>\
+        "<div class=\"scroll tall\" tabindex=\"0\" role=\"region\" aria-label=\"Table of the units\"><table>\n<thead><tr><th>Unit</th><th>Displace&shy;ment [m]</th><th>Damaged</th><th>Direction [&deg;]</th>\
          <th>&Delta;x [m]</th><th>&Delta;z [m]</th><th>Rotation [&deg;]</th><th>Peak force of the water [N]</th>\
          <th>Peak contact force [N]</th><th>Contacts with bed</th><th>Contacts with units</th></tr></thead>\n<tbody>\n{rows}\
          <tr class=\"sum\"><td>Mean</td><td>{mean:.3}</td><td>{} of {}</td><td colspan=\"8\"></td></tr>\n</tbody></table></div>\n\
