@@ -10,6 +10,8 @@
 //! | `diagnostics.csv` | [`CsvSeries`] | checks of the water: volume, Mach number, densities, time steps |
 //! | `unit_surface.json` | [`UnitSurface`] | surface of a unit relative to its centre of mass |
 //! | `fluid.vtkhdf`, `units.vtkhdf` | [`PolyDataSeries`] | water particles, and surfaces of the units, for ParaView |
+//! | `surface.vtkhdf` | [`PolyDataSeries`] | surface of the water, for films |
+//! | `progress.json` | [`Summary`] | summary of a run in progress |
 //! | `report.html`, `picture.svg` | `report::run::write_report` | the report, and a picture of one moment of the run |
 //!
 //! [`columns`] defines the column names of the tables. A [`Writer`] writes large files while the run continues.

@@ -6,13 +6,14 @@ use serde_json::{Map, Value};
 use super::hash::fingerprint;
 
 /// Keys that may change before a run continues. They change neither the motion nor the form of the output files.
-const KEYS_FREE_TO_RESUME: [&str; 11] = [
+const KEYS_FREE_TO_RESUME: [&str; 12] = [
     "title",
     "assumptions",
     "reference",
     "stop",
     "output.fluid_interval_s",
     "output.units_interval_s",
+    "output.surface_interval_s",
     "output.series_interval_s",
     "output.checkpoint_interval_s",
     "output.surfaces_interval_s",

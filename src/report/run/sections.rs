@@ -363,6 +363,7 @@ const FILES: [(&str, &str); 16] = [
         RunFolder::WATER,
         "water particles with velocity, pressure and density: open in ParaView 5.12 or later, show as <em>Point Gaussian</em>, colour by velocity",
     ),
+    ("surface.vtkhdf", "surface of the water with velocity and pressure: opens in ParaView"),
     ("units.vtkhdf", "moving surfaces of the units: open in ParaView together with the water"),
     ("units.csv", "position, orientation, velocity, force of the water and contact force of each unit over time"),
     ("contacts.csv", "every contact event with position, velocity, peak force and impulse"),
