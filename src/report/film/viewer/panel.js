@@ -9,8 +9,7 @@ function digits(value) {
 }
 
 function element(name, attributes = {}, text = "") {
-  const namespace = ["svg", "path", "text", "title"].includes(name) ? "http://www.w3.org/2000/svg" : null;
-  const made = namespace ? document.createElementNS(namespace, name) : document.createElement(name);
+  const made = document.createElement(name);
   Object.entries(attributes).forEach(([key, value]) => made.setAttribute(key, value));
   if (text) made.textContent = text;
   return made;
@@ -25,26 +24,20 @@ class Curve {
     if (this.range[0] === this.range[1]) this.range[1] = 1;
     const { width, height, left, right, top, bottom } = CURVE;
     const label = `${name} [${unit}]`;
+    const word = (kind, x, y, value) => `<text class="tick ${kind}" x="${x}" y="${y}">${digits(value)}</text>`;
+    const line = values.flatMap((value, i) => {
+      return Number.isFinite(value) ? [`${this.x(times[i]).toFixed(1)} ${this.y(value).toFixed(1)}`] : [];
+    });
     this.node = element("figure", { class: "film-curve" });
     this.node.append(element("figcaption", {}, label));
-    const svg = element("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${label} over time` });
-    svg.append(element("path", { class: "axis", d: `M${left} ${top}V${height - bottom}H${width - right}` }));
-    [...this.range].forEach((value) => {
-      svg.append(element("text", { class: "tick end", x: left - 5, y: this.y(value) + 4 }, digits(value)));
-    });
-    [times[0], times[times.length - 1]].forEach((time, end) => {
-      const place = { class: `tick ${end ? "end" : ""}`, x: this.x(time), y: height - 5 };
-      svg.append(element("text", place, digits(time)));
-    });
-    let line = "";
-    values.forEach((value, i) => {
-      if (!Number.isFinite(value)) return;
-      line += `${line ? "L" : "M"}${this.x(times[i]).toFixed(1)} ${this.y(value).toFixed(1)}`;
-    });
-    svg.append(element("path", { class: "line c0", d: line || "M0 0" }));
-    this.mark = element("path", { class: "mark" });
-    svg.append(this.mark);
-    this.node.append(svg);
+    const holder = element("div");
+    holder.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${label} over time">
+      <path class="axis" d="M${left} ${top}V${height - bottom}H${width - right}"/>
+      ${this.range.map((value) => word("end", left - 5, this.y(value) + 4, value)).join("")}
+      ${word("", left, height - 5, times[0])}${word("end", width - right, height - 5, times[times.length - 1])}
+      <path class="line c0" d="M${line.join("L")}"/><path class="mark"/></svg>`;
+    this.mark = holder.querySelector(".mark");
+    this.node.append(holder);
   }
 
   x(time) {
