@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use breakwater::output::Impacts;
 use serde_json::{Value, json};
 
-const FILES: [&str; 13] = [
+const FILES: [&str; 14] = [
     "case.json",
     "checkpoint.h5",
     "contacts.csv",
@@ -19,6 +19,7 @@ const FILES: [&str; 13] = [
     "profile.csv",
     "report.html",
     "summary.json",
+    "surface.vtkhdf",
     "units.csv",
     "units.vtkhdf",
 ];
@@ -74,7 +75,7 @@ fn tiny_case(folder: &Path) -> PathBuf {
             { "kind": "pressure", "name": "bed", "at_m": [0.3, 0.1, 0.0] },
             { "kind": "velocity", "name": "front", "at_m": [0.6, 0.1, 0.05] }
         ],
-        "output": { "fluid_interval_s": 0.05, "units_interval_s": 0.05, "series_interval_s": 0.005,
+        "output": { "fluid_interval_s": 0.05, "units_interval_s": 0.05, "surface_interval_s": 0.03, "series_interval_s": 0.005,
                     "checkpoint_interval_s": 0.02 },
         "stop": { "duration_s": 0.3 }
     });
@@ -329,6 +330,7 @@ fn files_are_about_as_large_as_estimated(case: &Path, out: &Path) {
     let tables = ["diagnostics.csv", "energy.csv", "gauges.csv", "units.csv"].map(size).iter().sum::<f64>();
     let sizes = [
         ("fluid.vtkhdf", size("fluid.vtkhdf"), estimate.fluid),
+        ("surface.vtkhdf", size("surface.vtkhdf"), estimate.surface),
         ("units.vtkhdf", size("units.vtkhdf"), estimate.units),
         ("tables", tables, estimate.tables),
         ("checkpoint.h5", size("checkpoint.h5"), estimate.checkpoint),
@@ -419,7 +421,7 @@ fn a_killed_run_resumes_to_the_same_results() {
     for file in FILES {
         assert!(killed.join(file).exists(), "{file} is missing after resuming");
     }
-    for file in ["fluid.vtkhdf", "units.vtkhdf"] {
+    for file in ["fluid.vtkhdf", "surface.vtkhdf", "units.vtkhdf"] {
         for dataset in ["VTKHDF/Points", "VTKHDF/PointData/velocity", "VTKHDF/Steps/Values"] {
             let [a, b] = [&whole, &killed].map(|dir| numbers(&dir.join(file), dataset));
             assert!(!a.is_empty() && a == b, "{file}: {dataset} differs");
@@ -464,7 +466,7 @@ fn a_full_disk_ends_the_run_with_an_error() {
     let folder = tempfile::tempdir().unwrap();
     let (case, out) = (tiny_case(folder.path()), folder.path().join("out"));
     let mut many_snapshots = read_json(&case);
-    many_snapshots["output"] = json!({ "fluid_interval_s": 0.002, "units_interval_s": 0.0 });
+    many_snapshots["output"] = json!({ "fluid_interval_s": 0.002, "units_interval_s": 0.0, "surface_interval_s": 0.0 });
     std::fs::write(&case, many_snapshots.to_string()).unwrap();
     // Files are limited to 2400 blocks of 512 or 1024 bytes, a fifth of the size of fluid.vtkhdf. With the signal
     // ignored, the write fails as on a full disk.

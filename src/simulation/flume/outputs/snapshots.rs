@@ -4,10 +4,9 @@
 
 use std::path::Path;
 
-use glam::DVec3;
 use rayon::prelude::*;
 
-use super::surface::{SurfaceSeries, WaterParts};
+use super::surface::{SurfaceSeries, WaterParts, particles_in};
 use crate::simulation::flume::Simulation;
 use crate::{
     case::{FluidField, Output},
@@ -188,17 +187,6 @@ impl Frame {
         let values: Vec<FieldValues> = self.fields.iter().map(Column::values).collect();
         series.append(self.time, &self.points, &self.triangles, &values)
     }
-}
-
-/// Returns the indices of the particles of a region that are in a range of x and, if there is a box, inside the box [m].
-pub fn particles_in(region: &Simulation, [from, to]: [f64; 2], corners: Option<[[f64; 3]; 2]>) -> Vec<u32> {
-    let corners = corners.unwrap_or([[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]]).map(DVec3::from_array);
-    let position = &region.water.position;
-    let inside = |&i: &u32| {
-        let place = position[i as usize];
-        (from..to).contains(&place.x) && place.cmpge(corners[0]).all() && place.cmple(corners[1]).all()
-    };
-    (0..position.len() as u32).into_par_iter().with_min_len(4096).filter(inside).collect()
 }
 
 /// Returns `value` of each of the `chosen` particles of each region, in the same order.

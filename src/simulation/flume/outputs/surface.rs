@@ -5,9 +5,9 @@
 
 use std::path::Path;
 
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use glam::DVec3;
+use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 
-use super::snapshots::particles_in;
 use crate::simulation::flume::Simulation;
 use crate::{
     output::{Cells, FieldKind, FieldValues, OutputError, PolyDataSeries},
@@ -35,7 +35,7 @@ impl WaterParts {
             let water = &region.water;
             let everywhere = [f64::NEG_INFINITY, f64::INFINITY];
             let chosen = particles_in(region, everywhere, simulation.case.output.fluid_box);
-            let of = |value: &[glam::DVec3]| chosen.iter().map(|&i| value[i as usize].as_vec3().to_array()).collect();
+            let of = |value: &[DVec3]| chosen.iter().map(|&i| value[i as usize].as_vec3().to_array()).collect();
             let cloud = Cloud {
                 spacing: region.case.domain.dp as f32,
                 position: of(&water.position),
@@ -100,4 +100,15 @@ impl SurfaceSeries {
         let values = [FieldValues::Vector(&surface.velocity), FieldValues::Scalar(&surface.pressure)];
         self.series.append(water.time, &surface.points, &surface.triangles, &values)
     }
+}
+
+/// Returns the indices of the particles of a region that are in a range of x and, if there is a box, inside the box [m].
+pub fn particles_in(region: &Simulation, [from, to]: [f64; 2], corners: Option<[[f64; 3]; 2]>) -> Vec<u32> {
+    let corners = corners.unwrap_or([[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]]).map(DVec3::from_array);
+    let position = &region.water.position;
+    let inside = |&i: &u32| {
+        let place = position[i as usize];
+        (from..to).contains(&place.x) && place.cmpge(corners[0]).all() && place.cmple(corners[1]).all()
+    };
+    (0..position.len() as u32).into_par_iter().with_min_len(4096).filter(inside).collect()
 }
