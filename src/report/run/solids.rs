@@ -6,6 +6,7 @@ use super::cover::Cover;
 use super::motion::Pose;
 use super::window::{Window, path_point};
 use crate::output::UnitSurface;
+use crate::report::film::Mesh;
 
 /// Number of brightness levels of the faces.
 const SHADES: f64 = 7.0;
@@ -41,25 +42,13 @@ impl ViewDirection {
 /// Simplifies a surface to the detail that is visible at `scale` [px/m]. The vertices in each cell of a grid are
 /// replaced by their mean.
 pub fn coarsened(surface: &UnitSurface, scale: f64) -> UnitSurface {
-    let cell = |v: &[f64; 3]| v.map(|c| (c * scale / DETAIL).floor() as i64);
-    let mut cells: BTreeMap<[i64; 3], (u32, [f64; 3], f64)> = BTreeMap::new();
-    let mut merged = Vec::with_capacity(surface.vertices_m.len());
-    for vertex in &surface.vertices_m {
-        let next = cells.len() as u32;
-        let (number, sum, count) = cells.entry(cell(vertex)).or_insert((next, [0.0; 3], 0.0));
-        *sum = [0, 1, 2].map(|i| sum[i] + vertex[i]);
-        *count += 1.0;
-        merged.push(*number);
+    let points = surface.vertices_m.iter().map(|vertex| vertex.map(|c| c as f32)).collect();
+    let mesh = Mesh { points, triangles: surface.triangles.clone(), values: Vec::new() };
+    let merged = mesh.clustered((DETAIL / scale) as f32);
+    UnitSurface {
+        vertices_m: merged.points.iter().map(|point| point.map(f64::from)).collect(),
+        triangles: merged.triangles,
     }
-    let mut vertices_m = vec![[0.0; 3]; cells.len()];
-    for (number, sum, count) in cells.into_values() {
-        vertices_m[number as usize] = sum.map(|c| c / count);
-    }
-    let triangles = (surface.triangles.iter())
-        .map(|t| t.map(|corner| merged[corner as usize]))
-        .filter(|[a, b, c]| a != b && b != c && c != a)
-        .collect();
-    UnitSurface { vertices_m, triangles }
 }
 
 /// Largest distance of a vertex of the unit from its centre of mass [m].
