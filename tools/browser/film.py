@@ -149,10 +149,12 @@ def click_unit(page, film, box, pictures):
 
 
 def contrasts(page):
-    for kind, name, ratio in page.value(CONTRASTS):
-        least = TEXT_CONTRAST if kind == "text" else CONTROL_CONTRAST
-        if ratio < least:
-            expect(f"contrast of the {kind} {name!r}: {ratio:.1f} (at least {least})", False)
+    for scheme in ["light", "dark"]:
+        page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+        found = page.value(CONTRASTS)
+        least = {"text": TEXT_CONTRAST, "control": CONTROL_CONTRAST}
+        low = [f"{name!r} {ratio:.1f}" for kind, name, ratio in found if ratio < least[kind]]
+        expect(f"contrast of {len(found)} texts and controls on a {scheme} page {', '.join(low)}", not low)
 
 
 def focus(page):

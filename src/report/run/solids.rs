@@ -1,7 +1,5 @@
 //! Drawings of units as shaded solids.
 
-use std::collections::BTreeMap;
-
 use super::cover::Cover;
 use super::motion::Pose;
 use super::window::{Window, path_point};
