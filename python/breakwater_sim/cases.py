@@ -32,6 +32,19 @@ class Check:
     memory_bytes: float | None = None
 
 
+def as_json(value: Any) -> str:
+    """Returns keys and values as JSON; numpy arrays become lists, paths become texts."""
+
+    def plain(value: Any) -> Any:
+        if hasattr(value, "tolist"):
+            return value.tolist()
+        if isinstance(value, os.PathLike):
+            return os.fspath(value)
+        raise TypeError(f"{value!r} cannot be a value in a case")
+
+    return json.dumps(value, default=plain, indent=2, ensure_ascii=False)
+
+
 class Case:
     """A case file: nested keys, as in the file. Paths of keys are dotted: `case["friction[1].coefficient"]`.
 
@@ -41,7 +54,7 @@ class Case:
 
     def __init__(self, keys: Mapping[str, Any], path: str | os.PathLike[str] = "case.json") -> None:
         # Lists and objects are copied, so that a change of the case changes nothing else.
-        self._keys: dict[str, Any] = json.loads(json.dumps(dict(keys)))
+        self._keys: dict[str, Any] = json.loads(as_json(dict(keys)))
         self.path = Path(path)
 
     @classmethod
@@ -62,7 +75,7 @@ class Case:
         return value
 
     def __setitem__(self, key: str, value: Any) -> None:
-        text = call(_native.set_key, json.dumps(self._keys), key, json.dumps(value))
+        text = call(_native.set_key, as_json(self._keys), key, as_json(value))
         self._keys = json.loads(text)
 
     def __delitem__(self, key: str) -> None:
@@ -92,7 +105,7 @@ class Case:
 
     def to_json(self) -> str:
         """Returns the text of the case file."""
-        return json.dumps(self._keys, indent=2, ensure_ascii=False)
+        return as_json(self._keys)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the case file."""

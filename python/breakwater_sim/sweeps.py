@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 import sys
@@ -12,6 +11,7 @@ from typing import Any, Mapping
 import pandas as pd
 
 from . import _native
+from .cases import as_json
 from .errors import RunError, call
 from .runs import FractureRun, Run, open_run
 
@@ -63,7 +63,7 @@ def sweep(
         if "case" in keys:
             keys["case"] = os.path.relpath(keys["case"], out)
         file = out / "sweep.json"
-        file.write_text(json.dumps(keys, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+        file.write_text(as_json(keys) + "\n", encoding="utf-8")
     else:
         file = Path(source)
     call(_native.check, file.read_text(encoding="utf-8"), os.fspath(file))

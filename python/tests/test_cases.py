@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import breakwater_sim as bw
@@ -34,6 +35,15 @@ def test_a_copy_changes_alone_and_a_case_reads_back(case, tmp_path):
     read = bw.Case.load(path)
     assert read.to_dict() == case.to_dict() and read.path == path
     assert "small.json" in repr(read)
+
+
+def test_values_may_be_arrays_and_paths(case, tmp_path):
+    case["domain.x_m"] = np.array([0.0, 0.6])
+    case["units.count"] = np.int64(1)
+    case["reference"] = tmp_path
+    assert case["domain.x_m"] == [0.0, 0.6] and case["reference"] == str(tmp_path)
+    with pytest.raises(TypeError, match="cannot be a value"):
+        case["units"] = object()
 
 
 def test_a_check_gives_the_cost(case):

@@ -57,6 +57,9 @@ function connect(film) {
   });
   get("save").addEventListener("click", () => savePicture(canvas, film));
   connectRecorder(film, canvas, get("record"));
+  // A phone may take the graphics memory away from a page in the background.
+  canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+  canvas.addEventListener("webglcontextrestored", () => location.reload());
 }
 
 // Returns the layers of a film. Series with the same name are parts of one layer.

@@ -146,12 +146,13 @@ class Drawing {
     gl.bindVertexArray(null);
   }
 
-  // Fits the picture to the size of the canvas on the page. Returns the ratio of width to height.
+  // Fits the picture to the size of the canvas on the page. Returns true if its size changes, which clears it.
   fit() {
     const scale = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight].map((px) => Math.max(1, Math.round(px * scale)));
-    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
-    return width / height;
+    if (this.canvas.width === width && this.canvas.height === height) return false;
+    Object.assign(this.canvas, { width, height });
+    return true;
   }
 
   // Draws a list of objects { mesh, low, span, body, colours, share, plain, opacity, dot, number }: first the opaque

@@ -117,9 +117,8 @@ class Film {
   }
 
   draw() {
-    const aspect = this.drawing.fit();
-    if (aspect !== this.camera.aspect) {
-      this.camera.aspect = aspect;
+    if (this.drawing.fit()) {
+      this.camera.aspect = this.drawing.canvas.width / this.drawing.canvas.height;
       if (!this.hasMoved) this.camera.show(this.view || "corner");
       this.isStale = true;
     }
