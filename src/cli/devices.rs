@@ -39,12 +39,12 @@ impl DeviceArgument {
 }
 
 impl DeviceArgument {
-    /// Returns an error if a graphics card is selected for a dry test, which has no water.
+    /// Returns an error if a graphics card is selected for a run without water.
     pub(super) fn refuse_card(&self) -> Result<(), CommandError> {
         match self.device {
-            DeviceChoice::Gpu(_) => {
-                Err(CommandError::refused("--device gpu: dry tests run on the processor; leave the option out"))
-            }
+            DeviceChoice::Gpu(_) => Err(CommandError::refused(
+                "--device gpu: dry tests and fracture runs have no water and run on the processor; leave the option out",
+            )),
             DeviceChoice::Auto | DeviceChoice::Cpu => Ok(()),
         }
     }

@@ -3,7 +3,7 @@
 use std::{
     path::{Path, PathBuf},
     thread::sleep,
-    time::{Duration, SystemTime},
+    time::{Duration, Instant, SystemTime},
 };
 
 use clap::Args;
@@ -21,6 +21,13 @@ use crate::{
 /// Time after which the page of a run in progress loads itself again, and pause between two looks at the folder [s].
 const RELOAD_S: u64 = 10;
 const LOOK: Duration = Duration::from_secs(1);
+/// Time without news from the run after which a message says so.
+const QUIET: Duration = Duration::from_secs(300);
+/// Longest time for which the command waits for the report of the run after its end.
+const LONGEST_REPORT: Duration = Duration::from_secs(300);
+/// Largest number of looks in a row at which the report cannot be written.
+const MOST_FAILURES: usize = 30;
+const REPORT: &str = "report.html";
 
 /// Write the report of a finished run again, from the files in its folder.
 ///
@@ -43,6 +50,8 @@ impl ReportArguments {
     pub(super) fn execute(self) -> Result<(), CommandError> {
         if self.live {
             follow(&self.dir)?;
+            println!("{}", self.dir.join(REPORT).display());
+            return Ok(());
         }
         let kind = finished_run(&self.dir)?;
         let (write, write_film): (Write, WriteFilm) = match kind {
@@ -82,20 +91,39 @@ fn follow(dir: &Path) -> Result<(), CommandError> {
         }
     }
     let changed = |file: &str| std::fs::metadata(dir.join(file)).and_then(|data| data.modified()).ok();
-    let mut shown: Option<SystemTime> = None;
+    // A finished run that continues still has the summary of its earlier end.
+    let has_ended = || {
+        let (summary, progress) = (changed(Summary::FILE), changed(Summary::PROGRESS_FILE));
+        summary.is_some() && progress.is_none_or(|progress| summary > Some(progress))
+    };
+    let (mut shown, mut failures): (Option<SystemTime>, usize) = (None, 0);
+    let mut quiet_since = Instant::now();
     eprintln!("following {}; Ctrl-C ends this command, not the run", dir.display());
-    while changed(Summary::FILE).is_none() {
+    while !has_ended() {
+        sleep(LOOK);
         let progress = changed(Summary::PROGRESS_FILE);
-        // If the run is just writing a file, the next look succeeds.
-        if progress.is_some()
-            && progress != shown
-            && let Ok(path) = write_live_report(dir, RELOAD_S)
-        {
-            if shown.is_none() {
-                eprintln!("open {} in a browser; the page loads itself again every {RELOAD_S} s", path.display());
+        if progress.is_none() || progress == shown {
+            if quiet_since.elapsed() > QUIET {
+                eprintln!("the run has written nothing for {} minutes", QUIET.as_secs() / 60);
+                quiet_since = Instant::now();
             }
-            shown = progress;
+            continue;
         }
+        match write_live_report(dir, RELOAD_S) {
+            Ok(path) => {
+                if shown.is_none() {
+                    eprintln!("open {} in a browser; the page loads itself again every {RELOAD_S} s", path.display());
+                }
+                (shown, failures, quiet_since) = (progress, 0, Instant::now());
+            }
+            // If the run was just writing a file, a later look succeeds.
+            Err(_) if failures < MOST_FAILURES => failures += 1,
+            Err(error) => return Err(CommandError::failed(error)),
+        }
+    }
+    // The run writes its report after its summary.
+    let begun = Instant::now();
+    while changed(REPORT) < changed(Summary::FILE) && begun.elapsed() < LONGEST_REPORT {
         sleep(LOOK);
     }
     Ok(())

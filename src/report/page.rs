@@ -8,9 +8,16 @@ pub fn page(title: &str, body: &str) -> String {
     page_reloading(title, body, None)
 }
 
-/// Returns a page as [`page`] does. With `reload_s` [s], a browser loads the page again after this time.
+/// Returns a page as [`page`] does. With `reload_s` [s], a browser loads the page again after this time, unless the
+/// film plays.
 pub fn page_reloading(title: &str, body: &str, reload_s: Option<u64>) -> String {
-    let reload = reload_s.map(|time| format!("<meta http-equiv=\"refresh\" content=\"{time}\">\n")).unwrap_or_default();
+    let reload = reload_s.map_or(String::new(), |time| {
+        let milliseconds = 1000 * time;
+        format!(
+            "<script>setInterval(() => {{ if (!window.breakwaterFilm?.isBusy()) location.reload(); }}, \
+             {milliseconds});</script>\n"
+        )
+    });
     let title = escape(title);
     let style = [CHART_STYLE, include_str!("style.css"), include_str!("shades.css"), FILM_STYLE].concat();
     format!(

@@ -119,6 +119,7 @@ def desktop(report, pictures):
             expect(f"the view {view} is not blank", page.value(COLOURS) > 8)
         contrasts(page)
         focus(page)
+        keeps_its_view(page, film)
         expect(f"no errors in the console: {page.errors()}", page.errors() == [])
 
 
@@ -172,6 +173,19 @@ def focus(page):
     unnamed = page.value("[...document.querySelectorAll('.film select, .film input')].filter((one) => "
                          "!one.labels?.length && !one.getAttribute('aria-label')).length")
     expect("every list and switch has a name", unnamed == 0)
+
+
+def keeps_its_view(page, film):
+    """A page that loads again, as that of a run in progress, keeps view, time and colours."""
+    page.value("(() => { const list = document.getElementById('film-view'); list.value = 'side'; "
+               "list.dispatchEvent(new Event('change')); })()")
+    page.value(f"{film}.goTo(1)")
+    page.wait(READY)
+    time = page.value(f"{film}.time()")
+    page.value("location.reload()")
+    page.wait(f"{READY} && performance.now() < 60000")
+    kept = page.value(f"[{film}.view, document.getElementById('film-view').value, {film}.time()]")
+    expect(f"a page that loads again keeps its view and time: {kept}", kept[:2] == ["side", "side"] and abs(kept[2] - time) < 1e-6)
 
 
 def phone(report, pictures):

@@ -2,7 +2,7 @@
 // validator into the folder. Exit code 1 if a file has errors or warnings.
 
 const { execFileSync } = require("node:child_process");
-const { existsSync, mkdirSync, readFileSync } = require("node:fs");
+const { existsSync, mkdirSync, readFileSync, renameSync, rmSync } = require("node:fs");
 const { join, resolve } = require("node:path");
 
 const PACKAGE = "https://registry.npmjs.org/gltf-validator/-/gltf-validator-2.0.0-dev.3.10.tgz";
@@ -10,8 +10,13 @@ const PACKAGE = "https://registry.npmjs.org/gltf-validator/-/gltf-validator-2.0.
 const [folder, ...files] = process.argv.slice(2);
 const place = resolve(folder, "gltf-validator");
 if (!existsSync(place)) {
-  mkdirSync(place, { recursive: true });
-  execFileSync("sh", ["-c", `curl -fsSL ${PACKAGE} | tar xz -C "${place}" --strip-components 1`], { stdio: "inherit" });
+  // A download that fails leaves no folder that looks complete.
+  const part = `${place}.part`;
+  rmSync(part, { recursive: true, force: true });
+  mkdirSync(part, { recursive: true });
+  execFileSync("curl", ["-fsSL", "-o", join(part, "package.tgz"), PACKAGE], { stdio: "inherit" });
+  execFileSync("tar", ["xzf", join(part, "package.tgz"), "-C", part, "--strip-components", "1"]);
+  renameSync(part, place);
 }
 const validator = require(join(place, "index.js"));
 

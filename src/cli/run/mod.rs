@@ -130,7 +130,10 @@ impl Job<'_> {
                 fresh_folder(dir, overwrite)?;
                 dry_test::run_case(&Arc::from(case), dir, &control)
             }
-            InputFile::Fracture(case) => fracture::run_case(&case, path, dir, overwrite, &control),
+            InputFile::Fracture(case) => {
+                device.refuse_card()?;
+                fracture::run_case(&case, path, dir, overwrite, &control)
+            }
             other => Err(other_kind(path, other.kind())),
         }
     }

@@ -56,6 +56,8 @@ impl File {
             let mesh = self.mesh(series, frame, material);
             let node = self.node(json!({ "name": format!("{} {number}", series.name), "mesh": mesh }));
             if series.frames.len() > 1 {
+                // A program that does not play the film shows only its first frame.
+                self.nodes[node]["scale"] = json!([if number == 0 { 1.0 } else { 0.0 }; 3]);
                 self.show_from_to(node, number, times);
             }
             nodes.push(node);
@@ -125,7 +127,9 @@ impl File {
     fn mesh(&mut self, series: &Series, mesh: &Mesh, material: usize) -> usize {
         let mut attributes = json!({ "POSITION": self.positions(&mesh.points) });
         if series.smooth {
-            attributes["NORMAL"] = json!(self.floats(&mesh.normals(), Some(ARRAY_BUFFER)));
+            let side = if series.seen == Seen::Inside { -1.0 } else { 1.0 };
+            let normals: Vec<[f32; 3]> = mesh.normals().iter().map(|normal| normal.map(|part| side * part)).collect();
+            attributes["NORMAL"] = json!(self.floats(&normals, Some(ARRAY_BUFFER)));
         }
         if let (Some(field), Some(values)) = (series.fields.first(), mesh.values.first()) {
             let palette: Vec<[f32; 3]> = field.colours.iter().map(|colour| linear(colour)).collect();

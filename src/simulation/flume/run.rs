@@ -68,7 +68,12 @@ pub(super) struct FlumeRun {
     wall_before: f64,
     /// Length of the last time step [s].
     dt: f64,
+    /// Wall time of this session at the last summary of the run in progress [s].
+    reported: Option<f64>,
 }
+
+/// Shortest wall time between two summaries of a run in progress [s].
+const REPORT_INTERVAL: f64 = 10.0;
 
 impl FlumeRun {
     /// Returns a run that ends at the end of its case, or at the simulated time `until` [s] if this time is earlier.
@@ -80,6 +85,7 @@ impl FlumeRun {
             wall_before: simulation.statistics.wall_s,
             dir: dir.to_owned(),
             dt: 0.0,
+            reported: None,
             simulation,
             recorder,
         }
@@ -109,9 +115,11 @@ impl Run for FlumeRun {
         let before = self.recorder.state().clone();
         let begun = Instant::now();
         self.recorder.record_due(&mut now)?;
-        if self.recorder.state().snapshots() != before.snapshots() {
+        let has_news = self.recorder.state().snapshots() != before.snapshots();
+        if has_news && self.reported.is_none_or(|wall| session.wall - wall >= REPORT_INTERVAL) {
             // For a report of the run in progress.
             summarise(&now, Stopped::Running, &self.dir)?.write(&self.dir)?;
+            self.reported = Some(session.wall);
         }
         now.statistics.outputs_s += begun.elapsed().as_secs_f64();
         if now.is_on_gpu() && self.recorder.state().checkpoints.count > before.checkpoints.count {

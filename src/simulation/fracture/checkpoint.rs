@@ -33,7 +33,7 @@ pub const FILE: &str = "checkpoint.h5";
 pub const FAILED_FILE: &str = "failed.h5";
 
 /// Version of the file layout; increased when the layout changes.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// The state of a run without the arrays.
 #[derive(Serialize, Deserialize)]

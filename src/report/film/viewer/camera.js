@@ -30,9 +30,11 @@ function placed([px, py, pz], [x, y, z, w]) {
 }
 
 class Camera {
-  // `low` and `high` are the corners of the box that the camera shows at the start [m].
-  constructor(low, high) {
+  // `low` and `high` are the corners of the box that the camera shows at the start [m]; `corners` are the corners of
+  // everything that may be in the picture.
+  constructor(low, high, corners) {
     this.box = [low, high];
+    this.corners = [low, high, ...corners];
     this.aspect = 1;
     this.show("corner");
   }
@@ -86,8 +88,9 @@ class Camera {
       right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0,
       -dot(right), -dot(up), -dot(back), 1,
     ];
-    const far = this.distance + 4 * this.radius;
-    const near = Math.max(this.distance - 4 * this.radius, 0.002 * far);
+    const reach = Math.max(...this.corners.map((corner) => Math.hypot(...corner.map((value, k) => value - this.target[k]))));
+    const far = this.distance + reach;
+    const near = Math.max(this.distance - reach, 0.002 * far);
     const scale = 1 / Math.tan(FIELD_OF_VIEW / 2);
     const perspective = [
       scale / this.aspect, 0, 0, 0, 0, scale, 0, 0,

@@ -10,6 +10,7 @@ function connect(film) {
   const changed = () => {
     film.hasMoved = true;
     film.isStale = true;
+    remember(film);
   };
 
   const slider = get("time");
@@ -34,15 +35,16 @@ function connect(film) {
   for (const length of [5, 10, 20, 40, 80]) {
     speed.append(element("option", { value: length }, `${length} s (${digits(seconds / length)} \u00d7 real time)`));
   }
-  speed.value = "10";
+  speed.value = String(film.length);
   speed.addEventListener("change", () => {
     film.length = Number(speed.value);
+    remember(film);
   });
-  get("view").addEventListener("change", (event) => {
-    film.view = event.target.value;
-    film.camera.show(film.view);
-    film.hasMoved = false;
-    film.isStale = true;
+  const view = get("view");
+  view.value = film.view;
+  view.addEventListener("change", () => {
+    film.view = view.value;
+    showView(film);
   });
 
   const layers = get("layers");
@@ -50,16 +52,21 @@ function connect(film) {
   showLegend(film);
   connectPointer(film, canvas, changed);
   canvas.addEventListener("keydown", (event) => {
-    if (press(film, event)) {
-      event.preventDefault();
-      changed();
-    }
+    if (press(film, event, changed)) event.preventDefault();
   });
   get("save").addEventListener("click", () => savePicture(canvas, film));
   connectRecorder(film, canvas, get("record"));
   // A phone may take the graphics memory away from a page in the background.
   canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
   canvas.addEventListener("webglcontextrestored", () => location.reload());
+}
+
+// Shows the chosen view from its first place.
+function showView(film) {
+  film.camera.show(film.view);
+  film.hasMoved = false;
+  film.isStale = true;
+  remember(film);
 }
 
 // Returns the layers of a film. Series with the same name are parts of one layer.
@@ -90,6 +97,7 @@ function addLayer(film, parent, parts) {
   if (layer.fields.length > 1) {
     const choice = element("select", { "aria-label": `colour of: ${layer.name}` });
     layer.fields.forEach((field, index) => choice.append(element("option", { value: index }, field.name)));
+    choice.value = String(layer.field);
     choice.addEventListener("change", () => {
       parts.forEach((part) => {
         part.field = Number(choice.value);
@@ -125,21 +133,26 @@ function showLegend(film) {
   }
 }
 
-// Turns, moves and zooms with one or two pointers (mouse or fingers). A click chooses a unit.
+// Turns, moves and zooms with one or two pointers (mouse or fingers). A click, or a tap of a finger, chooses a unit.
 function connectPointer(film, canvas, changed) {
   const pointers = new Map();
-  let travelled = 0;
+  // Farthest distance of the pointer from its first place, and the distance from which it is a drag [px].
+  let start = null;
+  let isDrag = false;
+  const slop = (event) => (event.pointerType === "touch" ? 12 : 4);
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
     pointers.set(event.pointerId, event);
-    if (pointers.size === 1) travelled = 0;
+    start = event;
+    isDrag = pointers.size > 1;
   });
   canvas.addEventListener("pointermove", (event) => {
     const before = pointers.get(event.pointerId);
     if (!before) return;
+    isDrag ||= Math.hypot(event.clientX - start.clientX, event.clientY - start.clientY) > slop(event);
+    if (!isDrag) return;
     const height = canvas.clientHeight;
     const [dx, dy] = [event.clientX - before.clientX, event.clientY - before.clientY];
-    travelled += Math.hypot(dx, dy);
     if (pointers.size === 2) {
       const other = [...pointers.values()].find((pointer) => pointer.pointerId !== event.pointerId);
       const apart = (pointer) => Math.hypot(pointer.clientX - other.clientX, pointer.clientY - other.clientY);
@@ -154,7 +167,8 @@ function connectPointer(film, canvas, changed) {
     changed();
   });
   const release = (event) => {
-    if (pointers.delete(event.pointerId) && pointers.size === 0 && travelled < 4 && event.type === "pointerup" && film.bodies) {
+    const isLast = pointers.delete(event.pointerId) && pointers.size === 0;
+    if (isLast && !isDrag && event.type === "pointerup" && film.bodies) {
       const box = canvas.getBoundingClientRect();
       film.pick((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
     }
@@ -170,24 +184,29 @@ function connectPointer(film, canvas, changed) {
   }, { passive: false });
 }
 
-// Acts on a key. Returns false if the key has no meaning here.
-function press(film, { key, shiftKey, ctrlKey, altKey, metaKey }) {
+// Acts on a key. Returns false if the key has no meaning here. `changed` is called if the key moves the camera.
+function press(film, { key, shiftKey, ctrlKey, altKey, metaKey }, changed) {
   if (ctrlKey || altKey || metaKey) return false;
   const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
   if (arrows[key]) {
     const [x, y] = arrows[key].map((sign) => sign * STEP);
     if (shiftKey) film.camera.pan(-x, y);
     else film.camera.orbit(x, y);
+    changed();
     return true;
   }
+  const zoom = (factor) => {
+    film.camera.zoom(factor);
+    changed();
+  };
   const actions = {
-    "+": () => film.camera.zoom(1.15),
-    "=": () => film.camera.zoom(1.15),
-    "-": () => film.camera.zoom(1 / 1.15),
+    "+": () => zoom(1.15),
+    "=": () => zoom(1.15),
+    "-": () => zoom(1 / 1.15),
     " ": () => film.play(!film.isPlaying),
     ",": () => film.goTo(Math.ceil(film.at) - 1),
     ".": () => film.goTo(Math.floor(film.at) + 1),
-    Home: () => film.camera.show(film.view || "corner"),
+    Home: () => showView(film),
   };
   actions[key]?.();
   return Boolean(actions[key]);
@@ -218,10 +237,12 @@ function connectRecorder(film, canvas, button) {
     recorder.addEventListener("dataavailable", (event) => parts.push(event.data));
     recorder.addEventListener("stop", () => {
       button.disabled = false;
+      film.isRecording = false;
       film.onPlay = onPlay;
       save(new Blob(parts, { type: kinds[0] }), `film.${kinds[0].slice(6)}`);
     });
     button.disabled = true;
+    film.isRecording = true;
     film.goTo(0);
     film.play(true);
     film.onPlay = (isPlaying) => {
@@ -232,10 +253,13 @@ function connectRecorder(film, canvas, button) {
   });
 }
 
-// Keeps view and time for the next load of the page, because the page of a running simulation loads itself again.
+// Keeps what the viewer has chosen for the next load of the page: the page of a running simulation loads itself again.
 function remember(film) {
   const { turn, tilt, distance, target } = film.camera;
-  const kept = { camera: { turn, tilt, distance, target }, at: film.at, hasMoved: film.hasMoved, chosen: film.chosen };
+  const layers = layersOf(film).map(([{ name, visible, field }]) => ({ name, visible, field }));
+  const { view, hasMoved, length, chosen } = film;
+  const isAtEnd = film.at >= film.times.length - 1;
+  const kept = { camera: { turn, tilt, distance, target }, view, hasMoved, length, chosen, layers, isAtEnd, time: film.time() };
   try {
     sessionStorage.setItem(STORE + location.pathname, JSON.stringify(kept));
   } catch {
@@ -247,10 +271,18 @@ function recall(film) {
   try {
     const kept = JSON.parse(sessionStorage.getItem(STORE + location.pathname));
     if (!kept) return;
-    film.goTo(kept.at);
+    const { view, hasMoved, length, layers } = kept;
+    Object.assign(film, { view, hasMoved, length });
+    if (hasMoved) Object.assign(film.camera, kept.camera);
+    for (const { name, visible, field } of layers) {
+      [...film.series, film.bodies].filter((part) => part?.name === name && part.fields.length >= field).forEach((part) => {
+        Object.assign(part, { visible, field: Math.min(field, Math.max(0, part.fields.length - 1)) });
+      });
+    }
+    // The viewer who looks at the newest water sees the newer water.
+    if (kept.isAtEnd) film.goTo(film.times.length - 1);
+    else film.goToTime(kept.time);
     if (kept.chosen) film.choose(kept.chosen);
-    film.hasMoved = kept.hasMoved;
-    if (kept.hasMoved) Object.assign(film.camera, kept.camera);
   } catch {
     // As above.
   }

@@ -8,9 +8,12 @@ class Film {
     this.at = head.start;
     this.length = 10;
     this.isPlaying = false;
+    this.isRecording = false;
     this.chosen = 0;
+    this.view = "corner";
     this.drawing = new Drawing(document.getElementById("film-picture"));
-    this.camera = new Camera(head.box[0], head.box[1]);
+    const corners = head.series.filter((series) => series.frames.length > 0).flatMap(({ low, high }) => [low, high]);
+    this.camera = new Camera(head.box[0], head.box[1], corners);
     this.series = head.series.map((series) => ({ ...series, mesh: this.drawing.mesh(), frame: -1, field: 0, visible: true }));
     this.bodies = head.bodies && this.unpackedBodies(head.bodies);
     this.panel = this.bodies && new Panel(bytes, this.times, head.bodies, (number) => this.choose(number));
@@ -23,6 +26,19 @@ class Film {
     const values = bodies.fields.map((field) => numbers(this.bytes, field.values));
     const [position, turn] = [bodies.position, bodies.orientation].map((array) => numbers(this.bytes, array));
     return { ...bodies, mesh, values, position, turn, field: 0, visible: true };
+  }
+
+  // True while a new load of the page would disturb the viewer.
+  isBusy() {
+    return this.isPlaying || this.isRecording;
+  }
+
+  // Moves to a time.
+  goToTime(time) {
+    const after = this.times.findIndex((one) => one > time);
+    if (after < 0) this.goTo(this.times.length - 1);
+    else if (after === 0) this.goTo(0);
+    else this.goTo(after - 1 + (time - this.times[after - 1]) / (this.times[after] - this.times[after - 1]));
   }
 
   // Moves to a frame; a number between two frames is between their times.
@@ -119,7 +135,7 @@ class Film {
   draw() {
     if (this.drawing.fit()) {
       this.camera.aspect = this.drawing.canvas.width / this.drawing.canvas.height;
-      if (!this.hasMoved) this.camera.show(this.view || "corner");
+      if (!this.hasMoved) this.camera.show(this.view);
       this.isStale = true;
     }
     if (!this.isStale) return;

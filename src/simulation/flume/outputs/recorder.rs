@@ -122,7 +122,8 @@ impl Recorder {
         let tables = [GAUGES_FILE, UNITS_FILE, CONTACTS_FILE, ENERGY_FILE, DIAGNOSTICS_FILE];
         for file in tables.into_iter().chain([WATER_FILE, SURFACES_FILE, SURFACE_FILE]) {
             let (from, to) = (from.join(file), dir.join(file));
-            if to.exists() {
+            // A run of an earlier version has not written all files.
+            if to.exists() && from.exists() {
                 fs::copy(&from, to).map_err(OutputError::io(&from))?;
             }
         }

@@ -75,7 +75,7 @@ impl SnapshotFiles {
     /// Appends a snapshot of the surface of the water, if its file is open.
     ///
     /// # Errors
-    /// If the surface cannot be reconstructed or the file cannot be written.
+    /// If the file cannot be written.
     pub fn append_water_surface(&mut self, water: &WaterParts) -> Result<(), OutputError> {
         self.water_surface.as_mut().map_or(Ok(()), |series| series.append(water))
     }

@@ -3,14 +3,17 @@
 //! [`WaterParts`] is a copy of the water in single precision. The thread that writes the files reconstructs the surface
 //! from this copy while the run continues.
 
-use std::path::Path;
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::Path,
+};
 
 use glam::DVec3;
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 
 use crate::simulation::flume::Simulation;
 use crate::{
-    output::{Cells, FieldKind, FieldValues, OutputError, PolyDataSeries},
+    output::{Cells, FieldKind, FieldValues, OutputError, PolyDataSeries, progress::print_line},
     sph::surface::{Cloud, Surface},
 };
 
@@ -88,15 +91,18 @@ impl SurfaceSeries {
         Self { series, pool: pool.expect("the operating system starts a thread for the water surface") }
     }
 
-    /// Reconstructs the surface and appends it to the file.
+    /// Reconstructs the surface and appends it to the file. If the reconstruction fails, prints a warning and appends an
+    /// empty surface: a picture must not end a run.
     ///
     /// # Errors
-    /// If the surface cannot be reconstructed or the file cannot be written.
+    /// If the file cannot be written.
     pub fn append(&mut self, water: &WaterParts) -> Result<(), OutputError> {
-        let surface = self.pool.install(|| water.surface());
-        let surface = surface.map_err(|what| {
-            OutputError::content(Path::new(SURFACE_FILE), format!("no surface at {:.4} s: {what}", water.time))
-        })?;
+        let attempt = || self.pool.install(|| water.surface());
+        let made = catch_unwind(AssertUnwindSafe(attempt)).unwrap_or_else(|_| Err("see the message above".to_owned()));
+        let surface = made.unwrap_or_else(|what| {
+            print_line(&format!("warning: {SURFACE_FILE}: no surface at {:.4} s: {what}", water.time));
+            Surface::default()
+        });
         let values = [FieldValues::Vector(&surface.velocity), FieldValues::Scalar(&surface.pressure)];
         self.series.append(water.time, &surface.points, &surface.triangles, &values)
     }
