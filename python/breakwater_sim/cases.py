@@ -42,7 +42,19 @@ def as_json(value: Any) -> str:
             return os.fspath(value)
         raise TypeError(f"{value!r} cannot be a value in a case")
 
-    return json.dumps(value, default=plain, indent=2, ensure_ascii=False)
+    return json.dumps(value, default=plain, indent=2, ensure_ascii=False, allow_nan=False)
+
+
+def _parts(key: str) -> list[str]:
+    """Returns the parts of a path: `friction[1].coefficient` has `friction`, `1` and `coefficient`."""
+    return key.replace("]", "").replace("[", ".").split(".")
+
+
+def _entry(value: Any, part: str, key: str) -> Any:
+    try:
+        return value[int(part)] if isinstance(value, list) else value[part]
+    except (KeyError, IndexError, TypeError, ValueError):
+        raise KeyError(f"{key}: the case has no such key") from None
 
 
 class Case:
@@ -67,23 +79,24 @@ class Case:
 
     def __getitem__(self, key: str) -> Any:
         value: Any = self._keys
-        for part in key.replace("]", "").replace("[", ".").split("."):
-            try:
-                value = value[int(part)] if isinstance(value, list) else value[part]
-            except (KeyError, IndexError, TypeError, ValueError):
-                raise KeyError(f"{key}: the case has no such key") from None
+        for part in _parts(key):
+            value = _entry(value, part, key)
         return value
 
     def __setitem__(self, key: str, value: Any) -> None:
-        text = call(_native.set_key, as_json(self._keys), key, as_json(value))
-        self._keys = json.loads(text)
+        try:
+            text = as_json(value)
+        except ValueError:
+            raise ValueError(f"{key} = {value!r}: must be a finite number") from None
+        self._keys = json.loads(call(_native.set_key, as_json(self._keys), key, text))
 
     def __delitem__(self, key: str) -> None:
-        parent, _, last = key.rpartition(".")
-        target = self[parent] if parent else self._keys
-        if last not in target:
-            raise KeyError(f"{key}: the case has no such key")
-        del target[last]
+        *parents, last = _parts(key)
+        target: Any = self._keys
+        for part in parents:
+            target = _entry(target, part, key)
+        _entry(target, last, key)
+        del target[int(last) if isinstance(target, list) else last]
 
     def __contains__(self, key: str) -> bool:
         try:
@@ -108,7 +121,7 @@ class Case:
         return as_json(self._keys)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the case file."""
+        """Writes the case file. Paths in the case are not changed; they are relative to the folder of the file."""
         Path(path).write_text(self.to_json() + "\n", encoding="utf-8")
 
     def check(self) -> Check:
@@ -138,6 +151,6 @@ class Case:
         out = os.fspath(out)
         if os.path.isdir(out) and os.listdir(out) and not overwrite:
             raise FileExistsError(f"{out}: the folder is not empty; choose another one, or pass overwrite=True")
-        with Display(self._keys.get("title", out), progress) as display:
+        with Display(progress) as display:
             call(_native.run, self.to_json(), os.fspath(self.path), out, overwrite, threads or 0, device, display.show)
         return open_run(out)

@@ -11,8 +11,7 @@ class Display:
 
     INTERVAL_S = 0.5
 
-    def __init__(self, title: str, is_shown: bool) -> None:
-        self.title = title
+    def __init__(self, is_shown: bool) -> None:
         self.is_shown = is_shown
         self.begun = time.monotonic()
         self.begun_at: float | None = None

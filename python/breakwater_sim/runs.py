@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -171,10 +172,10 @@ class Run(Folder):
                 if values.ndim == 1:
                     columns[name] = values
                 else:
-                    stem, _, unit = name.partition("_")
+                    # The axis stands before the unit: peak_force_vector_x_n, rotation_x.
+                    stem, unit = re.fullmatch(r"(.*?)((?:_(?:m_s|rad_s|n_m|n_s|m|n))?)", name.removesuffix("_xyzw")).groups()
                     for axis in range(values.shape[1]):
-                        part = "xyzw"[axis] if values.shape[1] <= 4 else str(axis)
-                        columns[f"{stem}_{part}_{unit}" if unit else f"{stem}_{part}"] = values[:, axis]
+                        columns[f"{stem}_{'xyzw'[axis]}{unit}"] = values[:, axis]
         return pd.DataFrame(columns)
 
     @property
@@ -265,6 +266,6 @@ def resume(
     path: str | os.PathLike[str], *, threads: int | None = None, device: str | None = None, progress: bool = True
 ) -> Run | FractureRun:
     """Continues an interrupted run from its last checkpoint. The results are those of an uninterrupted run."""
-    with Display(os.fspath(path), progress) as display:
+    with Display(progress) as display:
         call(_native.resume, os.fspath(path), threads or 0, device, display.show)
     return open_run(path)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -32,8 +33,8 @@ class Sweep:
     @property
     def runs(self) -> list[Run | FractureRun]:
         """The finished runs, in the order of the table."""
-        folders = sorted(folder for folder in self.path.iterdir() if (folder / "summary.json").exists())
-        return [open_run(folder) for folder in folders]
+        table = self.table
+        return [open_run(self.path / name) for name in table["run"][table["state"] == "finished"]]
 
     def __repr__(self) -> str:
         return f"Sweep({os.fspath(self.path)!r})"
@@ -54,14 +55,15 @@ def sweep(
     `jobs` is the number of runs at the same time, each with `threads` threads. Finished runs are kept: after an
     interruption, the same call continues.
 
-    Raises `CaseError` if the sweep is not valid, `RunError` if a run fails.
+    Raises `CaseError` if the sweep file is not valid, `RunError` if a run of it is not valid or fails. Ctrl-C stops the
+    runs with a checkpoint.
     """
     out = Path(out)
     out.mkdir(parents=True, exist_ok=True)
     if isinstance(source, Mapping):
         keys = dict(source)
         if "case" in keys:
-            keys["case"] = os.path.relpath(keys["case"], out)
+            keys["case"] = os.path.abspath(keys["case"])
         file = out / "sweep.json"
         file.write_text(as_json(keys) + "\n", encoding="utf-8")
     else:
@@ -69,7 +71,9 @@ def sweep(
     call(_native.check, file.read_text(encoding="utf-8"), os.fspath(file))
     command = [sys.executable, "-m", "breakwater_sim", "sweep", os.fspath(file), "--out", os.fspath(out)]
     command += ["--threads", str(threads), "--device", device, *(["--jobs", str(jobs)] if jobs else [])]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    # A group of its own, so that a signal reaches the runs, too.
+    with subprocess.Popen(command, start_new_session=True, **pipes) as process:
         lines = []
         try:
             for line in process.stdout:
@@ -77,7 +81,7 @@ def sweep(
                 if progress:
                     print(line, end="", file=sys.stderr)
         except KeyboardInterrupt:
-            process.terminate()
+            os.killpg(process.pid, signal.SIGINT)
             raise
     if process.returncode != 0:
         raise RunError("".join(lines[-20:]).strip())

@@ -1,5 +1,9 @@
-"""Executes the notebooks in this folder, without changing them: `python execute.py [NOTEBOOK ...]`."""
+"""Executes the notebooks in this folder, without changing them: `python execute.py [NOTEBOOK ...]`.
 
+Deletes the runs of an earlier execution first.
+"""
+
+import shutil
 import sys
 import time
 from pathlib import Path
@@ -8,6 +12,7 @@ import nbformat
 from nbclient import NotebookClient
 
 here = Path(__file__).parent
+shutil.rmtree(here / "runs", ignore_errors=True)
 for path in [Path(name) for name in sys.argv[1:]] or sorted(here.glob("*.ipynb")):
     begun = time.monotonic()
     notebook = nbformat.read(path, as_version=4)

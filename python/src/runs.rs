@@ -97,6 +97,9 @@ pub fn resume(
     supervised(py, threads, show, move |control| command::resume_for(&path, device, control))
 }
 
+/// Start of the message of a run that the user has stopped.
+const STOPPED: &str = "stopped by the user";
+
 fn validated(text: &str, name: &str) -> PyResult<InputFile> {
     let document = Document::new(text, name).map_err(CaseErrors::from);
     document.and_then(|document| InputFile::from_document(&document)).map_err(|errors| of_case(&errors))
@@ -136,13 +139,22 @@ fn supervised(
         let [time, end] = seen.times_s();
         let looked =
             py.check_signals().and_then(|()| if end > 0.0 { show.call1((time, end)).map(drop) } else { Ok(()) });
-        if let (Err(error), None) = (looked, &interrupted) {
-            stop.store(true, Ordering::Relaxed);
-            interrupted = Some(error);
+        match (looked, &interrupted) {
+            (Ok(()), _) => {}
+            (Err(error), None) => {
+                stop.store(true, Ordering::Relaxed);
+                interrupted = Some(error);
+            }
+            // The second Ctrl-C does not wait for the checkpoint.
+            (Err(error), Some(_)) => return Err(error),
         }
     }
     let ended = worker.join();
     match (interrupted, ended) {
+        (Some(error), Ok(Err(other))) if !other.to_string().starts_with(STOPPED) => {
+            error.set_cause(py, Some(of_run(other)));
+            Err(error)
+        }
         (Some(error), _) => Err(error),
         (None, Ok(Ok(()))) => Ok(()),
         (None, Ok(Err(error))) => Err(of_run(error)),

@@ -19,6 +19,10 @@ def test_keys_are_read_set_and_removed_by_their_path(case):
     assert "numerics.cfl" in case and "numerics.h" not in case and "friction[7]" not in case
     del case["numerics.cfl"]
     assert case["numerics"] == {}
+    del case["gauges[0]"]
+    assert case["gauges"] == []
+    with pytest.raises(KeyError, match="no such key"):
+        del case["domain.dp_m.x"]
     for missing in ["waves", "friction[5].coefficient", "domain.dp_m.x", "friction.coefficient"]:
         with pytest.raises(KeyError, match="no such key"):
             case[missing]
@@ -44,6 +48,8 @@ def test_values_may_be_arrays_and_paths(case, tmp_path):
     assert case["domain.x_m"] == [0.0, 0.6] and case["reference"] == str(tmp_path)
     with pytest.raises(TypeError, match="cannot be a value"):
         case["units"] = object()
+    with pytest.raises(ValueError, match="domain.dp_m = nan: must be a finite number"):
+        case["domain.dp_m"] = float("nan")
 
 
 def test_a_check_gives_the_cost(case):

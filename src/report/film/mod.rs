@@ -20,8 +20,11 @@ mod simplify;
 pub use arrays::bounds;
 pub use glb::glb;
 pub use page::{packed_size, viewer_html};
-pub use scene::{Bodies, Body, Clock, DENSE, Field, NO_YES, Scene, Seen, Series, WARM};
+pub use scene::{Bodies, Body, Clock, DENSE, Field, NO_YES, Scene, Seen, Series, WARM, thinned};
 pub use simplify::Mesh;
+
+/// Largest size of the meshes that change with time [bytes of text in the page].
+pub const BUDGET: usize = 9_000_000;
 
 /// Style sheet of the viewer.
 pub const FILM_STYLE: &str = include_str!("viewer/film.css");

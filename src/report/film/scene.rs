@@ -115,6 +115,13 @@ impl Field {
     }
 }
 
+/// Returns the indices of at most `most` of `count` recorded times: the first, the last, and others at about equal
+/// distances.
+pub fn thinned(count: usize, most: usize) -> Vec<usize> {
+    let kept = count.min(most.max(2));
+    (0..kept).map(|index| index * (count - 1) / (kept - 1).max(1)).collect()
+}
+
 /// Rigid bodies of one shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bodies {
@@ -139,4 +146,25 @@ pub struct Body {
     pub number: u32,
     /// Names and values that the reader sees when he chooses the body.
     pub facts: Vec<(&'static str, String)>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_thinned_evenly_and_keep_both_ends() {
+        assert_eq!(thinned(5, 10), [0, 1, 2, 3, 4]);
+        assert_eq!(thinned(11, 6), [0, 2, 4, 6, 8, 10]);
+        assert_eq!(thinned(10, 5), [0, 2, 4, 6, 9]);
+        assert_eq!((thinned(1, 5), thinned(2, 1), thinned(0, 5)), (vec![0], vec![0, 1], Vec::new()));
+    }
+
+    #[test]
+    fn labels_and_numbers_have_their_place_on_the_scale() {
+        let field = Field::labels("mode", [("no", "#000000".to_owned()), ("yes", "#ffffff".to_owned())]);
+        assert_eq!((field.share(0.0), field.share(1.0)), (0.25, 0.75));
+        let field = Field::numbers("speed", "m/s", [0.0, 2.0], &DENSE);
+        assert_eq!([-1.0, 0.5, 9.0, f32::NAN].map(|value| field.share(value)), [0.0, 0.25, 1.0, 0.0]);
+    }
 }

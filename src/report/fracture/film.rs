@@ -4,7 +4,7 @@ use super::folder::FractureFolder;
 use super::stress_picture::{SCALE, css};
 use super::unit_picture::{OLD, OPENED, SLID};
 use crate::output::{OutputError, PolyDataMoments};
-use crate::report::film::{Clock, Field, Mesh, Scene, Series, bounds};
+use crate::report::film::{BUDGET, Clock, Field, Mesh, Scene, Series, bounds, packed_size, thinned};
 
 /// Largest number of frames.
 const MOST_FRAMES: usize = 60;
@@ -28,29 +28,36 @@ const PIECES: [(&str, &str); 7] = [
 pub fn film(run: &FractureFolder) -> Result<Option<Scene>, OutputError> {
     let Some([surfaces, cracks, _]) = &run.pictures else { return Ok(None) };
     let complete = surfaces.times_s().len().min(cracks.times_s().len());
-    let frames: Vec<usize> = (0..complete).step_by(complete.div_ceil(MOST_FRAMES).max(1)).collect();
-    if frames.is_empty() {
-        return Ok(None);
-    }
+    let Some(last) = complete.checked_sub(1) else { return Ok(None) };
     let shown = run.shown_bodies();
     let mut others = Series::new("Other bodies", "#c9c6c0", 1.0, Vec::new());
     let mut faces = Series::new("Cracks", "#0d40bf", 1.0, Vec::new());
-    faces.fields =
-        vec![Field::labels("mode", [("pre-existing", css(OLD)), ("opening", css(OPENED)), ("sliding", css(SLID))])];
+    let modes = [("pre-existing", css(OLD)), ("opening", css(OPENED)), ("sliding", css(SLID))];
+    faces.fields = vec![Field::labels("mode", modes)];
     let mut units = Series::new("Units", "#f0c94a", UNIT_OPACITY, Vec::new());
-    units.fields = unit_fields(run, surfaces, &frames)?;
-    for frame in &frames {
-        let whole = unit_mesh(surfaces, *frame, units.fields.len())?;
-        let body = surfaces.of_triangles::<i32>(*frame, "body")?;
-        units.frames.push(part(&whole, |face| shown.contains(&(body[face] as usize))));
-        others.frames.push(part(&whole, |face| !shown.contains(&(body[face] as usize))));
-        let mode = cracks.numbers::<i32>(*frame, "mode")?;
-        faces.frames.push(Mesh {
-            points: cracks.points(*frame)?,
-            triangles: cracks.triangles(*frame)?,
+    units.fields = unit_fields(run, surfaces, &thinned(complete, MOST_FRAMES))?;
+    let has_pieces = units.fields.len() > 1;
+    // The three meshes at a recorded time, in the order of the series.
+    let meshes = |frame: usize| -> Result<[Mesh; 3], OutputError> {
+        let whole = body_mesh(surfaces, frame, has_pieces)?;
+        let body = surfaces.of_triangles::<i32>(frame, "body")?;
+        let is_shown = |face: usize| shown.contains(&(body[face] as usize));
+        let mode = cracks.numbers::<i32>(frame, "mode")?;
+        let cracked = Mesh {
+            points: cracks.points(frame)?,
+            triangles: cracks.triangles(frame)?,
             values: vec![mode.iter().map(|mode| *mode as f32).collect()],
-        });
+        };
+        Ok([part(&whole, |face| !is_shown(face)), cracked, part(&whole, is_shown)])
+    };
+    let mut series = [others, faces, units];
+    // The last time has the most cracks.
+    let size: usize = series.iter().zip(meshes(last)?).map(|(series, mesh)| packed_size(series, &mesh)).sum();
+    let frames = thinned(complete, MOST_FRAMES.min(BUDGET / size.max(1)));
+    for frame in &frames {
+        series.iter_mut().zip(meshes(*frame)?).for_each(|(series, mesh)| series.frames.push(mesh));
     }
+    let [others, faces, units] = series;
     let corners: Vec<[[f32; 3]; 2]> = units.frames.iter().map(|frame| bounds(&frame.points)).collect();
     let times: Vec<f64> = frames.iter().map(|frame| run.clock_ms(surfaces.times_s()[*frame])).collect();
     let has_others = shown.len() < run.case.setup.bodies.len();
@@ -83,11 +90,12 @@ fn unit_fields(run: &FractureFolder, surfaces: &PolyDataMoments, frames: &[usize
     Ok(pieces.into_iter().chain([stress]).collect())
 }
 
-/// Reads the surfaces of all bodies, with values for the last `fields` of the pieces and the stress.
-fn unit_mesh(surfaces: &PolyDataMoments, frame: usize, fields: usize) -> Result<Mesh, OutputError> {
+/// Reads the surfaces of all bodies. Each point has the number of its piece, if `has_pieces` is true, and the first
+/// principal stress [MPa].
+fn body_mesh(surfaces: &PolyDataMoments, frame: usize, has_pieces: bool) -> Result<Mesh, OutputError> {
     let stress = surfaces.numbers::<f32>(frame, "sigma_1")?.into_iter().map(|sigma| 1e-6 * sigma).collect();
     let mut values = vec![stress];
-    if fields > 1 {
+    if has_pieces {
         let highest = PIECES.len() as i32 - 1;
         let piece = surfaces.numbers::<i32>(frame, "fragment")?;
         values.insert(0, piece.into_iter().map(|piece| piece.clamp(0, highest) as f32).collect());

@@ -8,7 +8,7 @@ use super::folder::RunFolder;
 use super::moments::{shown_x, shown_z};
 use super::scene::unit_radius;
 use crate::output::OutputError;
-use crate::report::film::{Clock, Scene, viewer_html};
+use crate::report::film::{Clock, Scene, thinned, viewer_html};
 
 use units::bodies;
 use water::Water;
@@ -56,31 +56,15 @@ pub fn film(run: &RunFolder, start_s: Option<f64>) -> Result<Option<Scene>, Outp
     }))
 }
 
-/// Returns the indices of at most `most` of `count` recorded times, at equal distances, with the first one.
-fn thinned(count: usize, most: usize) -> Vec<usize> {
-    (0..count).step_by(count.div_ceil(most).max(1)).collect()
-}
-
 /// Returns the content of the report section: how the film was made, and the film.
 pub fn section(scene: &Scene) -> String {
-    let [first, last] = [scene.times.first(), scene.times.last()].map(|time| time.copied().unwrap_or(0.0));
-    let count = scene.times.len();
-    let interval = (last - first) / (count.max(2) - 1) as f64;
-    format!(
-        "<p>{count} frames, one every {interval:.3} s. Between two frames the units move on, the water does not.</p>\n{}",
-        viewer_html(scene)
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn frames_are_thinned_evenly() {
-        assert_eq!(thinned(5, 10), [0, 1, 2, 3, 4]);
-        assert_eq!(thinned(10, 5), [0, 2, 4, 6, 8]);
-        assert_eq!(thinned(11, 5), [0, 3, 6, 9]);
-        assert!(thinned(0, 5).is_empty());
-    }
+    let words = match scene.times.as_slice() {
+        [first, .., last] => {
+            let count = scene.times.len();
+            let interval = (last - first) / (count - 1) as f64;
+            format!("<p>{count} frames, one every {interval:.3} s. Between two frames, only the units move.</p>\n")
+        }
+        _ => String::new(),
+    };
+    words + &viewer_html(scene)
 }

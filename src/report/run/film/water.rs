@@ -1,13 +1,14 @@
 //! Water of the film: its surface if the run recorded it, otherwise its particles.
 
+use serde_json::Value;
+
 use super::super::folder::RunFolder;
 use super::super::scene::bed_in;
 use super::super::water::round_up;
+use crate::case::Case;
 use crate::output::{OutputError, PolyDataMoments};
-use crate::report::film::{DENSE, Field, Mesh, Seen, Series, packed_size};
+use crate::report::film::{BUDGET, DENSE, Field, Mesh, Seen, Series, packed_size, thinned};
 
-/// Largest size of the water in the page [bytes of base64 text].
-const BUDGET: usize = 9_000_000;
 /// Edge lengths of the cells in which points of the surface are merged, if the film would be too large [particle
 /// spacings].
 const CELLS: [f32; 6] = [0.0, 1.6, 2.2, 3.0, 4.5, 6.0];
@@ -23,8 +24,10 @@ const SHARE_IN_SCALE: f64 = 0.995;
 pub struct Water {
     file: PolyDataMoments,
     is_surface: bool,
-    /// Particle spacing [m].
+    /// Finest particle spacing [m].
     spacing: f32,
+    /// Particle spacing [m] and range of x [m] of each region of coarser water.
+    coarse: Vec<(f64, [f64; 2])>,
 }
 
 /// How a frame is simplified.
@@ -49,7 +52,12 @@ impl Water {
             }
             let file = PolyDataMoments::open(&run.dir.join(name))?;
             if file.has("velocity") && !file.times_s().is_empty() {
-                return Ok(Some(Self { file, is_surface, spacing: run.summary.dp_m as f32 }));
+                return Ok(Some(Self {
+                    file,
+                    is_surface,
+                    spacing: run.summary.dp_m as f32,
+                    coarse: coarse_regions(run),
+                }));
             }
         }
         Ok(None)
@@ -84,13 +92,20 @@ impl Water {
         let choose = |detail: &Detail| affordable(*detail) >= frames.len();
         let detail = details.iter().copied().find(choose).unwrap_or(details[details.len() - 1]);
         let most = affordable(detail).clamp(2, frames.len().max(2));
-        let chosen: Vec<usize> = super::thinned(frames.len(), most).into_iter().map(|index| frames[index]).collect();
+        let chosen: Vec<usize> = thinned(frames.len(), most).into_iter().map(|index| frames[index]).collect();
         for frame in &chosen {
             for (series, mesh) in series.iter_mut().zip(self.parts(run, *frame)?) {
                 series.frames.push(simplified(&mesh, detail));
             }
         }
         Ok((series, chosen))
+    }
+
+    /// Particle spacing at a position along the flume [m].
+    fn spacing_at(&self, x: f32) -> f64 {
+        let x = f64::from(x);
+        let region = self.coarse.iter().find(|(_, [from, to])| (*from..*to).contains(&x));
+        region.map_or(f64::from(self.spacing), |(spacing, _)| *spacing)
     }
 
     fn without_frames(&self, sampled: &[Vec<Mesh>]) -> Vec<Series> {
@@ -132,10 +147,13 @@ impl Water {
             return Ok(vec![Mesh { points, triangles: Vec::new(), values }]);
         }
         let mesh = Mesh { triangles: self.file.triangles(frame)?, points, values };
-        let (spacing, width) = (f64::from(self.spacing), run.summary.domain_width_m);
+        let width = run.summary.domain_width_m;
         let bed = Bed::new(run);
-        let at_side = |corner: &[f32; 3], side: f64| (f64::from(corner[1]) - side).abs() < AT_SIDE * spacing;
-        let at_bed = |corner: &[f32; 3]| f64::from(corner[2]) < bed.z(f64::from(corner[0])) + AT_BED * spacing;
+        let at_side =
+            |corner: &[f32; 3], side: f64| (f64::from(corner[1]) - side).abs() < AT_SIDE * self.spacing_at(corner[0]);
+        let at_bed = |corner: &[f32; 3]| {
+            f64::from(corner[2]) < bed.z(f64::from(corner[0])) + AT_BED * self.spacing_at(corner[0])
+        };
         // The edge between a side wall and the bed belongs to the wall.
         let is_at = |corners: &[[f32; 3]; 3], side: f64| {
             corners.iter().all(|corner| at_side(corner, side) || at_bed(corner))
@@ -157,6 +175,21 @@ impl Water {
 fn normal(corners: &[[f32; 3]; 3]) -> [f32; 3] {
     let [a, b, c] = corners.map(glam::Vec3::from_array);
     (b - a).cross(c - a).to_array()
+}
+
+/// Returns particle spacing and range of x of the regions of coarser water [m].
+fn coarse_regions(run: &RunFolder) -> Vec<(f64, [f64; 2])> {
+    let path = run.dir.join("case.json");
+    let keys: Value = std::fs::read(&path).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default();
+    // Most cases have water of one spacing. To read a case completely may take seconds.
+    if keys["domain"]["fine_x_m"].as_array().is_none_or(Vec::is_empty) {
+        return Vec::new();
+    }
+    let of_case = |case: Case| {
+        let coarse = case.domain.regions.iter().filter(|region| region.coarseness > 1);
+        coarse.map(|region| (f64::from(region.coarseness) * case.domain.dp, region.x)).collect()
+    };
+    Case::load(&path).map(of_case).unwrap_or_default()
 }
 
 fn simplified(mesh: &Mesh, detail: Detail) -> Mesh {
