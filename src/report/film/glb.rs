@@ -57,7 +57,8 @@ impl File {
             let node = self.node(json!({ "name": format!("{} {number}", series.name), "mesh": mesh }));
             if series.frames.len() > 1 {
                 // A program that does not play the film shows only its first frame.
-                self.nodes[node]["scale"] = json!([if number == 0 { 1.0 } else { 0.0 }; 3]);
+                let scale = if number == 0 { 1.0 } else { 0.0 };
+                self.nodes[node]["scale"] = json!([scale, scale, scale]);
                 self.show_from_to(node, number, times);
             }
             nodes.push(node);
