@@ -30,7 +30,7 @@ pub fn film(run: &FractureFolder) -> Result<Option<Scene>, OutputError> {
     let complete = surfaces.times_s().len().min(cracks.times_s().len());
     let Some(last) = complete.checked_sub(1) else { return Ok(None) };
     let shown = run.shown_bodies();
-    let mut others = Series::new("Other bodies", "#c9c6c0", 1.0, Vec::new());
+    let others = Series::new("Other bodies", "#c9c6c0", 1.0, Vec::new());
     let mut faces = Series::new("Cracks", "#0d40bf", 1.0, Vec::new());
     let modes = [("pre-existing", css(OLD)), ("opening", css(OPENED)), ("sliding", css(SLID))];
     faces.fields = vec![Field::labels("mode", modes)];

@@ -357,7 +357,7 @@ fn facts(summary: &Summary) -> String {
 }
 
 /// Files of a run folder and their contents, in the order of the table in the report.
-const FILES: [(&str, &str); 16] = [
+const FILES: [(&str, &str); 17] = [
     (RunFolder::PICTURE, "picture of water and units at one time"),
     (
         RunFolder::WATER,
