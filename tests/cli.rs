@@ -430,6 +430,41 @@ fn a_killed_run_resumes_to_the_same_results() {
 }
 
 #[test]
+fn the_report_of_a_run_in_progress_shows_it_and_ends_with_the_run() {
+    // A part of the script with which the page loads itself again.
+    const RELOADS: &str = "isBusy()) location.reload()";
+    let folder = tempfile::tempdir().unwrap();
+    let (case, out) = (tiny_case(folder.path()), folder.path().join("out"));
+    let mut longer = read_json(&case);
+    longer["stop"]["duration_s"] = json!(30.0);
+    std::fs::write(&case, longer.to_string()).unwrap();
+    let start =
+        |arguments: &[&str]| breakwater().args(arguments).stderr(Stdio::null()).stdout(Stdio::null()).spawn().unwrap();
+    let wait_for = |what: &str, is_true: &mut dyn FnMut() -> bool| {
+        let begun = Instant::now();
+        while !is_true() {
+            assert!(begun.elapsed() < Duration::from_secs(120), "{what}: not within two minutes");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    };
+    let report = || std::fs::read_to_string(out.join("report.html")).unwrap_or_default();
+    let mut run = start(&["run", path(&case), "--out", path(&out), "--quiet"]);
+    wait_for("summary of the run in progress", &mut || out.join("progress.json").exists());
+    let mut live = start(&["report", path(&out), "--live"]);
+    wait_for("report of the run in progress", &mut || report().contains(RELOADS));
+    assert!(!out.join("summary.json").exists(), "the run has ended too early for this test");
+    assert!(report().contains("film-head"), "the page has a film");
+    wait_for("checkpoint", &mut || out.join("checkpoint.h5").exists());
+    run.kill().unwrap();
+    run.wait().unwrap();
+    assert!(live.try_wait().unwrap().is_none(), "a run that was killed can continue");
+    succeed(&["resume", path(&out), "--until", "0.3", "--quiet"]);
+    wait_for("end of the command", &mut || live.try_wait().unwrap().is_some());
+    assert!(!report().contains(RELOADS), "the report of a finished run does not load itself again");
+    assert!(!out.join("progress.json").exists());
+}
+
+#[test]
 fn resume_refuses_a_folder_without_a_run() {
     let folder = tempfile::tempdir().unwrap();
     let message = refuse(&["resume", path(folder.path())]);

@@ -23,8 +23,6 @@ const RELOAD_S: u64 = 10;
 const LOOK: Duration = Duration::from_secs(1);
 /// Time without news from the run after which a message says so.
 const QUIET: Duration = Duration::from_secs(300);
-/// Longest time for which the command waits for the report of the run after its end.
-const LONGEST_REPORT: Duration = Duration::from_secs(300);
 /// Largest number of looks in a row at which the report cannot be written.
 const MOST_FAILURES: usize = 30;
 const REPORT: &str = "report.html";
@@ -121,10 +119,8 @@ fn follow(dir: &Path) -> Result<(), CommandError> {
             Err(error) => return Err(CommandError::failed(error)),
         }
     }
-    // The run writes its report after its summary.
-    let begun = Instant::now();
-    while changed(REPORT) < changed(Summary::FILE) && begun.elapsed() < LONGEST_REPORT {
-        sleep(LOOK);
-    }
+    // The run writes its report after its summary. A report of the run in progress that was just being written may have
+    // replaced it.
+    write_report(dir).map_err(CommandError::failed)?;
     Ok(())
 }
