@@ -70,8 +70,8 @@ impl Mesh {
             members[place] += 1.0;
             // A running mean keeps the precision of single numbers.
             let share = 1.0 / members[place];
-            for axis in 0..3 {
-                merged.points[place][axis] += share * (point[axis] - merged.points[place][axis]);
+            for (mean, coordinate) in merged.points[place].iter_mut().zip(point) {
+                *mean += share * (coordinate - *mean);
             }
             for (list, values) in merged.values.iter_mut().zip(&self.values) {
                 list[place] += share * (values[index] - list[place]);
