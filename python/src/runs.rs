@@ -15,17 +15,18 @@ use breakwater::{
     sweep::{key, plan::Sweep},
 };
 use pyo3::{exceptions::PyValueError, prelude::*};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::errors::{of_case, of_run};
 
 /// Interval between two looks for Ctrl-C, and between two calls of the progress display.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Reads an input file and returns its text, which is JSON.
+/// Reads an input file and returns its text, which is a JSON object.
 #[pyfunction]
 pub fn read(path: &str) -> PyResult<String> {
     let document = Document::read(Path::new(path)).map_err(|error| of_case(&error.into()))?;
+    document.parse::<Map<String, Value>>().map_err(|error| of_case(&error.into()))?;
     // Some editors write a byte order mark, which the parser of Python refuses.
     Ok(document.text.trim_start_matches('\u{feff}').to_owned())
 }

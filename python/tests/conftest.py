@@ -1,8 +1,12 @@
 """A small case that all tests share: a Tetrapod in still water beside a small wave of the wavemaker."""
 
+from pathlib import Path
+
 import pytest
 
 import breakwater_sim as bw
+
+CASES = Path(__file__).parents[2] / "cases"
 
 KEYS = {
     "title": "A Tetrapod in shallow water",
@@ -21,6 +25,7 @@ KEYS = {
         {"name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5},
         {"name": "pvc", "young_modulus_pa": 1e8, "poisson_ratio": 0.35, "restitution": 0.5},
     ],
+    "numerics": {"hold_units_s": 0.01},
     "friction": [
         {"between": ["mortar", "mortar"], "coefficient": 0.65},
         {"between": ["mortar", "pvc"], "coefficient": 0.32},
@@ -46,3 +51,19 @@ def case():
 def run(tmp_path_factory):
     """A finished run of the case."""
     return bw.Case(KEYS).run(tmp_path_factory.mktemp("runs") / "small", threads=1, device="cpu", progress=False)
+
+
+@pytest.fixture(scope="session")
+def dry_run(tmp_path_factory):
+    """A finished dry test."""
+    drop = bw.Case.load(CASES / "tutorial" / "drop.json")
+    return drop.run(tmp_path_factory.mktemp("runs") / "drop", progress=False)
+
+
+@pytest.fixture(scope="session")
+def fracture_run(tmp_path_factory):
+    """A finished run of a fracture case, with all its snapshots."""
+    impact = bw.Case.load(CASES / "tutorial" / "impact.json")
+    impact["output.tets_interval_s"] = 5e-4
+    impact["output.section"] = {"point_m": [0.0, 0.0, 0.5], "normal": [0.0, 1.0, 0.0]}
+    return impact.run(tmp_path_factory.mktemp("runs") / "impact", progress=False)

@@ -1,6 +1,5 @@
 """Cases: keys, validation, and exceptions for wrong values."""
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -15,10 +14,10 @@ def test_keys_are_read_set_and_removed_by_their_path(case):
     assert case["friction[1].coefficient"] == 0.32
     case["friction[1].coefficient"] = 0.4
     case["numerics.cfl"] = 0.2
-    assert case["friction[1].coefficient"] == 0.4 and case["numerics"] == {"cfl": 0.2}
+    assert case["friction[1].coefficient"] == 0.4 and case["numerics"] == {"hold_units_s": 0.01, "cfl": 0.2}
     assert "numerics.cfl" in case and "numerics.h" not in case and "friction[7]" not in case
     del case["numerics.cfl"]
-    assert case["numerics"] == {}
+    assert case["numerics"] == {"hold_units_s": 0.01}
     del case["gauges[0]"]
     assert case["gauges"] == []
     with pytest.raises(KeyError, match="no such key"):
@@ -54,7 +53,8 @@ def test_values_may_be_arrays_and_paths(case, tmp_path):
 
 def test_a_check_gives_the_cost(case):
     check = case.check()
-    assert check.kind == "flume" and check.warnings == []
+    assert check.kind == "flume"
+    assert any("domain.width_m = 0.16 is 11.43 particle spacings" in warning for warning in check.warnings)
     # 0.6 x 0.16 x 0.12 m of water with one particle per (14 mm)^3: 4200.
     assert check.particles > 4200 and check.steps > 100 and check.memory_bytes > 0
 
@@ -126,7 +126,7 @@ def test_a_wrong_value_raises_an_exception_that_names_it(case, key, value, part)
 
 @pytest.mark.parametrize("path", sorted((ROOT / "tests" / "bad_cases").glob("*.json")), ids=lambda path: path.stem)
 def test_no_bad_file_ends_the_process(path):
-    with pytest.raises((bw.CaseError, bw.RunError, json.JSONDecodeError)) as raised:
+    with pytest.raises((bw.CaseError, bw.RunError)) as raised:
         bw.Case.load(path).check()
     assert str(raised.value)
 

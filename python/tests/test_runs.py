@@ -118,23 +118,13 @@ def test_progress_is_shown(case, tmp_path, capsys):
     assert shown.err == "" or "simulated" in shown.err
 
 
-def test_a_dry_test_is_a_run_too(tmp_path):
-    drop = bw.Case.load(bw_cases() / "tutorial" / "drop.json")
-    run = drop.run(tmp_path / "drop", progress=False)
-    assert run.displacement[1] >= 0.0 and len(run.contacts) > 0
+def test_a_dry_test_is_a_run_too(dry_run):
+    assert dry_run.displacement[1] >= 0.0 and len(dry_run.contacts) > 0
     with pytest.raises(FileNotFoundError, match="fluid_interval_s"):
-        run.water(0.0)
+        dry_run.water(0.0)
 
 
-def test_a_fracture_run_has_cracks_and_pieces(tmp_path):
-    impact = bw.Case.load(bw_cases() / "tutorial" / "impact.json")
-    run = impact.run(tmp_path / "impact", progress=False)
-    assert isinstance(run, bw.FractureRun)
-    assert {"kinetic_j", "fracture_j"} <= set(run.energy.columns)
-    assert "mass_kg" in run.fragments and run.bodies.index.names == ["body", "time_s"]
-
-
-def bw_cases():
-    from pathlib import Path
-
-    return Path(__file__).parents[2] / "cases"
+def test_a_fracture_run_has_cracks_and_pieces(fracture_run):
+    assert isinstance(fracture_run, bw.FractureRun)
+    assert {"kinetic_j", "fracture_j"} <= set(fracture_run.energy.columns)
+    assert "mass_kg" in fracture_run.fragments and fracture_run.bodies.index.names == ["body", "time_s"]
