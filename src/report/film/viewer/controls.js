@@ -110,6 +110,12 @@ function addLayer(film, parent, parts) {
   parent.append(row);
 }
 
+function bar(...parts) {
+  const whole = element("span", { class: "film-bar" });
+  whole.append(...parts);
+  return whole;
+}
+
 function showLegend(film) {
   const legend = document.getElementById("film-legend");
   legend.replaceChildren();
@@ -118,17 +124,14 @@ function showLegend(film) {
     const row = element("div", { class: "film-scale" });
     const name = `${layer.name}: ${field.name}${field.unit ? ` [${field.unit}]` : ""}`;
     row.append(element("span", {}, name));
-    const bar = element("span", { class: "film-bar" });
-    field.colours.forEach((colour, index) => {
-      const part = element("i", { style: `background:${colour}` });
-      bar.append(part);
-      if (field.labels) bar.append(element("span", {}, field.labels[index]));
-    });
-    if (!field.labels) {
-      bar.prepend(element("span", {}, digits(field.range[0])));
-      bar.append(element("span", {}, digits(field.range[1])));
+    const parts = field.colours.map((colour) => element("i", { style: `background:${colour}` }));
+    if (field.labels) {
+      // Each colour stays with its label if the row is too long for the screen.
+      parts.forEach((part, index) => row.append(bar(part, element("span", {}, field.labels[index]))));
+    } else {
+      const [low, high] = field.range.map((value) => element("span", {}, digits(value)));
+      row.append(bar(low, ...parts, high));
     }
-    row.append(bar);
     legend.append(row);
   }
 }
