@@ -79,11 +79,14 @@ impl Surface {
         par_laplacian_smoothing_inplace(&mut mesh, &neighbours, PASSES, 1.0, &weights);
 
         let interpolator = SphInterpolator::new(&positions, &vec![1.0; positions.len()], 1.0, support);
-        let velocity = interpolator.interpolate_vector_quantity(&vectors(&water.velocity), &mesh.vertices, true);
+        // Velocity and pressure together, because the search for the particles nearby takes most of the time.
+        let flow: Vec<SVector<f32, 4>> =
+            water.velocity.iter().zip(&water.pressure).map(|([x, y, z], p)| SVector::from([*x, *y, *z, *p])).collect();
+        let flow = interpolator.interpolate_vector_quantity(&flow, &mesh.vertices, true);
         Ok(Self {
-            velocity: arrays(&velocity),
-            pressure: interpolator.interpolate_scalar_quantity(&water.pressure, &mesh.vertices, true),
-            points: arrays(&mesh.vertices),
+            velocity: flow.iter().map(|values| [values[0], values[1], values[2]]).collect(),
+            pressure: flow.iter().map(|values| values[3]).collect(),
+            points: mesh.vertices.iter().map(|point| (*point).into()).collect(),
             triangles: mesh.triangles.iter().map(|corners| corners.map(|corner| corner as u32)).collect(),
         })
     }
@@ -124,10 +127,6 @@ impl Surface {
 
 fn vectors(arrays: &[[f32; 3]]) -> Vec<Vector3<f32>> {
     arrays.iter().map(|array| Vector3::from(*array)).collect()
-}
-
-fn arrays(vectors: &[SVector<f32, 3>]) -> Vec<[f32; 3]> {
-    vectors.iter().map(|vector| (*vector).into()).collect()
 }
 
 #[cfg(test)]
