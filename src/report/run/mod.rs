@@ -1,11 +1,12 @@
 //! Report of a flume run.
 //!
-//! `report.html` is self-contained: style sheet, charts, film and the program that shows the film are inline. `picture.svg` is a
-//! separate picture of one recorded time of the run.
+//! `report.html` is self-contained: style sheet, charts, film and the program that shows the film are inline.
+//! `picture.svg` is a separate picture of one recorded time of the run.
 
 mod breakage;
 mod charts;
 mod cover;
+mod facts;
 mod film;
 mod folder;
 mod moments;
