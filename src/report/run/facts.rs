@@ -2,9 +2,8 @@
 
 use super::super::plot::{escape, short};
 use super::folder::RunFolder;
-use super::sections::{height_symbol, width_and_sides};
 use crate::{
-    output::Summary,
+    output::{Summary, WaveSummary},
     report::page::{clock, grouped, section},
 };
 
@@ -130,4 +129,18 @@ pub fn files(run: &RunFolder) -> String {
     let words = "<p>Tables are CSV files in SI units; each column name includes the unit. Flume time 0 is the start of \
                  the wavemaker.</p>\n";
     section("Files of this run", &format!("{words}<table class=\"facts\"><tbody>\n{rows}</tbody></table>\n"))
+}
+
+/// Returns the symbol of the wave height in the summary: H_s for irregular waves (significant height), otherwise H.
+pub fn height_symbol(wave: &WaveSummary) -> &'static str {
+    if wave.kind == "irregular" { "H_s" } else { "H" }
+}
+
+/// Describes the width and the side boundaries of the particle domain.
+fn width_and_sides(summary: &Summary) -> String {
+    let sides = if summary.side_walls { "with side walls" } else { "periodic across the flume" };
+    match summary.two_dimensional {
+        true => "two-dimensional".to_owned(),
+        false => format!("{} m wide, {sides}", short(summary.domain_width_m, 3)),
+    }
 }

@@ -3,7 +3,11 @@
 use super::super::plot::{escape, short};
 use super::folder::RunFolder;
 use super::moments::Moments;
-use super::{breakage, charts, facts, film, views};
+use super::{
+    breakage, charts,
+    facts::{self, height_symbol},
+    film, views,
+};
 use crate::{
     output::{Stopped, Summary, UnitSummary, WaveSummary},
     report::{
@@ -60,20 +64,6 @@ fn wave_in_words(wave: &WaveSummary) -> String {
     let noun = if wave.kind == "solitary" { "wave" } else { "waves" };
     let (kind, height) = (capitalised(&wave.kind), short(100.0 * wave.height_m, 2));
     format!("{kind} {noun}, {} = {height} cm at the wavemaker", height_symbol(wave))
-}
-
-/// Returns the symbol of the wave height in the summary: H_s for irregular waves (significant height), otherwise H.
-pub(super) fn height_symbol(wave: &WaveSummary) -> &'static str {
-    if wave.kind == "irregular" { "H_s" } else { "H" }
-}
-
-/// Describes the width and the side boundaries of the particle domain.
-pub(super) fn width_and_sides(summary: &Summary) -> String {
-    let sides = if summary.side_walls { "with side walls" } else { "periodic across the flume" };
-    match summary.two_dimensional {
-        true => "two-dimensional".to_owned(),
-        false => format!("{} m wide, {sides}", short(summary.domain_width_m, 3)),
-    }
 }
 
 fn key_figures(summary: &Summary) -> String {
