@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -38,12 +39,21 @@ def test_the_results_are_those_of_the_command_line(case, run, tmp_path):
     expect_same(run.path, tmp_path / "run")
 
 
+@pytest.fixture
+def ctrl_c():
+    """Python raises KeyboardInterrupt, also if a shell started the tests in the background, where Ctrl-C is ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("ctrl_c")
 def test_ctrl_c_keeps_a_checkpoint_and_resume_continues_to_the_same_bits(case, run, tmp_path):
     folder = tmp_path / "stopped"
 
     def stop_after_a_checkpoint():
         while not (folder / "checkpoint.h5").exists():
-            pass
+            time.sleep(0.001)
         os.kill(os.getpid(), signal.SIGINT)
 
     thread = threading.Thread(target=stop_after_a_checkpoint)
