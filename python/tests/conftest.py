@@ -1,4 +1,4 @@
-"""A small case that all tests share: a Tetrapod in still water beside a small wave of the wavemaker."""
+"""A small case that all tests share: a Tetrapod in still water."""
 
 from pathlib import Path
 
