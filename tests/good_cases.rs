@@ -208,8 +208,9 @@ fn derived_numbers_equal_those_of_the_published_run() {
     assert_eq!(units.placements[1].rotation, glam::DQuat::from_rotation_z(std::f64::consts::PI));
     // The row of units is centred across the flume.
     assert!((units.placements[7].centre.y - 0.6).abs() < 1e-12);
-    // Mortar on mortar, on the bed of mortar and on the mound of PVC.
-    assert_eq!([units.on_unit, units.on_ground, units.on_mound], [0.65.into(), 0.65.into(), 0.32.into()]);
+    // Units and bed are of mortar, which is the first material; the mound is of PVC.
+    let pairs: Vec<_> = units.pairs.iter().map(|pair| (pair.between, pair.resistance)).collect();
+    assert_eq!(pairs, [([0, 0], 0.65.into()), ([0, 1], 0.32.into())]);
     assert!(!case.gauges[0].in_domain && case.gauges[1].in_domain);
 }
 

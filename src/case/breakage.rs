@@ -6,6 +6,7 @@ use super::file::{BaseFile, BreakageFile, BreakageMaterialFile, ImpactMeasure, J
 use super::fracture::validate_concrete;
 use super::reading::check::{Checker, as_text, at_least, more_than};
 use super::units::shape::UnitShape;
+use super::units::{UnitGroup, Units};
 use crate::femdem::mesh;
 use crate::femdem::mesh::UnitMesh;
 
@@ -69,11 +70,16 @@ impl BreakageSettings {
 /// Validates the entry `breakage`. `name` is the path of the case file; the path of the mesh is relative to its folder.
 pub(super) fn validate(
     file: &BreakageFile,
-    shape: &UnitShape,
+    units: &Units,
     name: &str,
     check: &mut Checker,
 ) -> Option<BreakageSettings> {
     let before = check.count();
+    let [UnitGroup { shape, .. }] = &units.groups[..] else {
+        let given = format!("given with {} groups of units", units.groups.len());
+        check.reject("breakage", given, "left out unless there is one group", "analyse each group in a run of its own");
+        return None;
+    };
     let advice = "50 for a 1:50 model, 1 for units at prototype scale";
     check.number("breakage.scale", file.scale, at_least(1e-2).up_to(1e3), "", advice);
     check.number("breakage.friction", file.friction, at_least(0.0).up_to(10.0), "", "rough concrete has 0.6");

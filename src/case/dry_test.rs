@@ -105,7 +105,7 @@ fn validate(file: &DryFile, document: &Document, check: &mut Checker) -> Option<
     let mut units = units::validate(&file.units, &ground.surroundings(name), check)?;
     let breakage = match &file.breakage {
         None => None,
-        Some(entry) => Some(breakage::validate(entry, &units.shape, name, check)?),
+        Some(entry) => Some(breakage::validate(entry, &units, name, check)?),
     };
     let output = validate_output(&file.output, stop.duration, check);
     let Ground { materials, site, contact } = ground;
@@ -217,7 +217,8 @@ fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mu
     }
     let (x, width, sides, top_z) = (file.domain.x_m, file.domain.width_m, file.domain.sides, file.domain.top_z_m);
     let mound_x = flume.mound.map(|mound| mound.toe_x);
-    (check.count() == before).then_some(Site { profile: flume.profile, mound_x, terrain, x, width, sides, top_z })
+    let (profile, obstacles) = (flume.profile, Vec::new());
+    (check.count() == before).then_some(Site { profile, mound_x, terrain, obstacles, x, width, sides, top_z })
 }
 
 /// Returns the test and the height by which it lifts the units [m].

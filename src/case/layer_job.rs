@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use super::file::{ArmourFile, ArmourOrientation, CaseFile, DryFile, UnitsFile};
+use super::file::{ArmourFile, ArmourOrientation, CaseFile, DryFile, UnitGroupsFile};
 use super::flume::{bed, domain, site::Site};
 use super::reading::check::{Checker, at_least, more_than};
 use super::reading::document::{Document, InputKind};
 use super::reading::error::CaseErrors;
 use super::units::contact::{self, Contact};
 use super::units::materials::{self, GroundNames, Material};
-use super::units::{self, MAX_UNITS, Surroundings, Units};
+use super::units::{self, MAX_UNITS, Surroundings, UnitGroup, Units};
 use super::{dry_test, flume_case};
 
 /// Armour layers on a slope; SI units.
@@ -74,10 +74,15 @@ impl LayerJob {
         [end(x0)].into_iter().chain(inner).chain([end(x1)]).collect()
     }
 
+    /// Returns the group of units to place.
+    pub fn group(&self) -> &UnitGroup {
+        &self.units.groups[0]
+    }
+
     /// Returns the slope area under the layers, divided by D_n^2 [-], with the nominal diameter D_n of a unit.
     pub fn area(&self) -> f64 {
         let length: f64 = self.slope().windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum();
-        length * self.site.width / self.units.shape.nominal_diameter().powi(2)
+        length * self.site.width / self.group().shape.nominal_diameter().powi(2)
     }
 
     /// Returns the number of units in all layers.
@@ -108,26 +113,34 @@ fn validate_flume_case(file: &CaseFile, document: &Document, check: &mut Checker
 
 fn validate_job(
     title: &str,
-    file: &UnitsFile,
+    file: &UnitGroupsFile,
     around: &Surroundings,
     gravity: f64,
     check: &mut Checker,
 ) -> Option<LayerJob> {
-    let units = units::validate_unplaced(file, around, check);
-    let Some(armour) = &file.armour else {
-        let advice = "write \"armour\": { \"x_m\": [from, to], \"packing_density\": 1.04 }";
-        check.reject("units.armour", "(missing)", "the armour layers to place", advice);
+    let [group] = file.groups() else {
+        let given = format!("{} groups", file.groups().len());
+        check.reject("units", given, "one group", "place each group in a case of its own");
         return None;
     };
-    let armour = validate(armour, around.site?, check)?;
-    let (title, site, materials) = (title.to_owned(), around.site?.clone(), around.materials.list.clone());
-    let job = LayerJob { title, site, units: units?, armour, materials, contact: around.contact, gravity };
-    let count = job.count();
-    if !(1..=MAX_UNITS as usize).contains(&count) {
-        let advice = "change the length of the layers or the packing density";
-        check.reject("units.armour", format!("{count} units"), format!("1 to {MAX_UNITS} units"), advice);
-    }
-    Some(job)
+    check.in_section(&file.path(0), |check| {
+        let unplaced = units::validate_unplaced(group, 0, around, check);
+        let Some(armour) = &group.armour else {
+            let advice = "write \"armour\": { \"x_m\": [from, to], \"packing_density\": 1.04 }";
+            check.reject(".armour", "(missing)", "the armour layers to place", advice);
+            return None;
+        };
+        let armour = validate(armour, around.site?, check)?;
+        let (title, site, materials) = (title.to_owned(), around.site?.clone(), around.materials.list.clone());
+        let units = units::with_ground(vec![unplaced?], Vec::new(), around, check)?;
+        let job = LayerJob { title, site, units, armour, materials, contact: around.contact, gravity };
+        let count = job.count();
+        if !(1..=MAX_UNITS as usize).contains(&count) {
+            let advice = "change the length of the layers or the packing density";
+            check.reject(".armour", format!("{count} units"), format!("1 to {MAX_UNITS} units"), advice);
+        }
+        Some(job)
+    })
 }
 
 fn validate(file: &ArmourFile, site: &Site, check: &mut Checker) -> Option<Armour> {
@@ -135,13 +148,13 @@ fn validate(file: &ArmourFile, site: &Site, check: &mut Checker) -> Option<Armou
     let [start, end] = site.x;
     let [x0, x1] = file.x_m;
     let advice = "the layers must lie inside the domain";
-    check.number("units.armour.x_m[0]", x0, at_least(start).below(end), "m", advice);
-    check.number("units.armour.x_m[1]", x1, more_than(x0).up_to(end), "m", advice);
+    check.number(".armour.x_m[0]", x0, at_least(start).below(end), "m", advice);
+    check.number(".armour.x_m[1]", x1, more_than(x0).up_to(end), "m", advice);
     if !(1..=10).contains(&file.layers) {
-        check.reject("units.armour.layers", file.layers, "1 to 10", "two layers are usual");
+        check.reject(".armour.layers", file.layers, "1 to 10", "two layers are usual");
     }
     let advice = "usual for two layers: Tetrapods 1.04, Dolosse 0.83, cubes 1.17";
-    check.number("units.armour.packing_density", file.packing_density, more_than(0.0).up_to(5.0), "", advice);
+    check.number(".armour.packing_density", file.packing_density, more_than(0.0).up_to(5.0), "", advice);
     let ArmourFile { layers, packing_density, orientation, seed, .. } = *file;
     (check.count() == before).then_some(Armour { x: file.x_m, layers, packing_density, orientation, seed })
 }

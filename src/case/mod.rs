@@ -63,7 +63,7 @@ pub use reference::{Reference, ReferenceWave, ReferenceWaveKind, Resolution, Ser
 pub use units::contact::Contact;
 pub use units::materials::{FrictionPair, Material};
 pub use units::shape::{UnitKind, UnitShape};
-pub use units::{UnitPose, Units};
+pub use units::{UnitGroup, UnitPose, Units};
 pub use wave::Wave;
 pub use wave::external_wave::{ExternalWave, ROWS_FILE};
 pub use wave::wavemaker::{SHARE_TO_GAUGE, Wavemaker};

@@ -8,7 +8,7 @@ use super::{CommandError, counted, input::load, run, savings::savings};
 use crate::{
     case::{
         BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Reference, Sides,
-        UnitKind, Units, Wave, Wavemaker,
+        UnitGroup, UnitKind, Units, Wave, Wavemaker,
     },
     output::{OutputSize, progress::readable},
     rigid::{RigidSetup, RigidWorld},
@@ -204,15 +204,19 @@ fn print_savings(case: &Case, path: &Path) {
 }
 
 fn print_units(units: &Units) {
-    let shape = &units.shape;
+    units.groups.iter().for_each(print_group);
+}
+
+fn print_group(group: &UnitGroup) {
+    let shape = &group.shape;
     println!(
         "  units       {} ({}) of {} m and {} kg",
-        units.placements.len(),
+        group.members.len(),
         shape.kind.name(),
         shape.height(),
-        units.mass
+        group.mass
     );
-    let density = units.mass / shape.volume();
+    let density = group.mass / shape.volume();
     print!("  a unit      {:.4e} m3, {density:.0} kg/m3, D_n = {:.4} m", shape.volume(), shape.nominal_diameter());
     match shape.kind.stability_coefficient() {
         Some(k_d) => println!(", K_D = {k_d}"),
@@ -236,7 +240,7 @@ const WARNING_OVERLAP: f64 = 0.01;
 fn check_overlap(setup: RigidSetup, units: &Units, path: &Path) -> Result<(), CommandError> {
     let world =
         RigidWorld::new(setup).map_err(|error| CommandError::refused(format!("{}: units: {error}", path.display())))?;
-    let overlap = world.deepest_overlap() / units.shape.height();
+    let overlap = world.deepest_overlap() / units.tallest();
     if overlap > WARNING_OVERLAP {
         eprintln!(
             "warning: units overlap each other, the bed or a wall by up to {:.2} % of their height at the start; \

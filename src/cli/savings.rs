@@ -68,7 +68,7 @@ fn in_words(change: &Change) -> String {
 fn changes(case: &Case) -> Vec<Change> {
     let mut changes = Vec::new();
     if let Some(units) = &case.units {
-        let (domain, height) = (&case.domain, units.shape.height());
+        let (domain, height) = (&case.domain, units.tallest());
         let x = || units.placements.iter().map(|pose| pose.centre.x);
         let low = x().fold(f64::INFINITY, f64::min) - 0.5 * height;
         let high = x().fold(f64::NEG_INFINITY, f64::max) + 0.5 * height;

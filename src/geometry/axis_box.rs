@@ -23,6 +23,11 @@ impl AxisBox {
         Self { low, high, open: [[true; 2]; 3] }
     }
 
+    /// The box moved by a vector [m].
+    pub fn shifted(&self, by: DVec3) -> Self {
+        Self { low: self.low + by, high: self.high + by, open: self.open }
+    }
+
     /// Slice with the given thickness [m] in y from the middle of the box; both cut faces are closed.
     pub fn slice(&self, thickness: f64) -> Self {
         let middle = 0.5 * (self.low.y + self.high.y);
@@ -36,6 +41,18 @@ impl AxisBox {
         let mut closed = *self;
         closed.open[1] = [false; 2];
         closed
+    }
+
+    /// Corners, and triangles that are counter-clockwise seen from outside.
+    pub fn surface(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let corner = |number: u32| {
+            DVec3::from_array(std::array::from_fn(|axis| {
+                if number >> axis & 1 == 0 { self.low[axis] } else { self.high[axis] }
+            }))
+        };
+        // Corners of each face: -x, +x, -y, +y, -z, +z.
+        let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        ((0..8).map(corner).collect(), faces.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]).collect())
     }
 
     /// Edge lengths [m].

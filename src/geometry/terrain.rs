@@ -165,6 +165,11 @@ impl Terrain {
         &self.triangles
     }
 
+    /// Returns the number of triangles, ridges and corners.
+    pub fn element_count(&self) -> u32 {
+        self.elements.len() as u32
+    }
+
     /// Lower and upper corner of the axis-aligned bounding box [m].
     pub fn bounds(&self) -> [DVec3; 2] {
         let root = self.tree.root_aabb();

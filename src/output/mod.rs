@@ -31,6 +31,7 @@ mod size;
 pub(crate) mod state_file;
 mod summary;
 mod table;
+mod unit_summary;
 mod unit_surface;
 mod vtkhdf;
 mod writer;
@@ -45,9 +46,10 @@ pub use series::CsvSeries;
 pub use size::OutputSize;
 pub use summary::{
     BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, PressureSummary, Stopped, Summary,
-    TimeStepSummary, UnitSummary, WaveSummary,
+    TimeStepSummary, WaveSummary,
 };
 pub use table::Table;
+pub use unit_summary::{GroupSummary, UnitSummary};
 pub use unit_surface::UnitSurface;
 pub use vtkhdf::{Cells, FieldKind, FieldValues, PolyDataMoments, PolyDataSeries, TetMoment, TetSeries};
 pub use writer::Writer;

@@ -1,7 +1,7 @@
 //! Estimate of the size of the output files from the case alone.
 
 use super::columns;
-use crate::case::{Case, FluidField, Quantity};
+use crate::case::{Case, FluidField, Quantity, UnitGroup, Units};
 
 /// Mean size of a number in a CSV table, including its comma [bytes]. In the tables of one run: 19.0 to 19.6 bytes.
 const BYTES_PER_NUMBER: f64 = 19.0;
@@ -82,10 +82,12 @@ fn water_surface_bytes(case: &Case, snapshots: f64) -> f64 {
 
 fn surfaces_bytes(case: &Case, snapshots: f64) -> f64 {
     let Some(units) = case.units.as_ref().filter(|_| snapshots > 0.0) else { return 0.0 };
-    let solid = units.shape.unit().solid();
-    let (vertices, triangles) = (solid.vertices().len() as f64, solid.triangles().len() as f64);
-    let stored_once = BYTES_PER_TRIANGLE * triangles;
-    RESERVED + units.placements.len() as f64 * (snapshots * BYTES_PER_SURFACE_POINT * vertices + stored_once)
+    let of_group = |group: &UnitGroup| {
+        let solid = group.shape.unit().solid();
+        let (vertices, triangles) = (solid.vertices().len() as f64, solid.triangles().len() as f64);
+        group.members.len() as f64 * (snapshots * BYTES_PER_SURFACE_POINT * vertices + BYTES_PER_TRIANGLE * triangles)
+    };
+    RESERVED + units.groups.iter().map(of_group).sum::<f64>()
 }
 
 fn table_bytes(case: &Case, rows: f64) -> f64 {
@@ -94,7 +96,7 @@ fn table_bytes(case: &Case, rows: f64) -> f64 {
         Quantity::Velocity => 3.0,
     };
     let gauges = case.gauges.iter().filter(|gauge| gauge.in_domain).map(|gauge| gauge_columns(gauge.quantity));
-    let units = case.units.as_ref().map_or(0, |units| units.placements.len()) as f64;
+    let units = case.units.as_ref().map_or(0, Units::count) as f64;
     let columns = 1.0 + gauges.sum::<f64>() + ENERGY_COLUMNS + DIAGNOSTICS_COLUMNS + UNIT_COLUMNS * units;
     BYTES_PER_NUMBER * rows * columns
 }

@@ -4,6 +4,7 @@ use std::{fmt, path::Path};
 
 use serde::{Deserialize, Serialize};
 
+use super::unit_summary::{GroupSummary, UnitSummary, averages};
 use super::{Execution, OutputError, write_atomically};
 
 /// Content of `summary.json`: damage and displacements first, then details of the run.
@@ -17,15 +18,19 @@ pub struct Summary {
     pub breakwater_version: String,
     /// Hash of the case that was run, as a hexadecimal number.
     pub case_hash: String,
-    /// Share of the units that moved further than `damage_distance_m` [-]; `None` without units.
+    /// Share of the units that moved further than their damage distance [-]; `None` without units that can move.
     pub damage_ratio: Option<f64>,
-    /// Mean displacement of the units [m]; `None` without units.
+    /// Mean displacement of the units [m]; `None` without units that can move.
     pub mean_displacement_m: Option<f64>,
-    /// Displacement above which a unit counts as damaged (damage distance) [m]; `None` without units.
+    /// Displacement above which a unit counts as damaged (damage distance) [m]; `None` without units that can move. If
+    /// groups differ, that of the first group that can move.
     pub damage_distance_m: Option<f64>,
     /// Results of the breakage analysis; `None` if the run was not analysed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub breakage: Option<BreakageSummary>,
+    /// Groups of equal units; empty in the summaries of older versions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<GroupSummary>,
     /// The units in order of their numbers.
     pub units: Vec<UnitSummary>,
     /// The wave; `None` if the case has no wave or the wave height is unknown.
@@ -82,54 +87,6 @@ pub struct Summary {
     /// Computing time, and the machine that made the run.
     #[serde(flatten)]
     pub execution: Execution,
-}
-
-/// Results for one unit.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct UnitSummary {
-    /// Number of the unit, from 1.
-    pub unit: u32,
-    /// Horizontal distance between first and last position of the centre of mass [m].
-    pub displacement_m: f64,
-    /// True if the displacement exceeds the damage distance.
-    pub damaged: bool,
-    /// Direction of the displacement in plan view [deg]: 0 is shoreward, positive is towards larger y. 0 without
-    /// displacement.
-    pub direction_deg: f64,
-    /// Centre of mass at the start [m].
-    pub start_m: [f64; 3],
-    /// Centre of mass at the end [m].
-    pub end_m: [f64; 3],
-    /// Angle of the rotation from the first to the last orientation of the unit [deg], 0 to 180.
-    pub rotation_deg: f64,
-    /// Largest water force, after subtraction of the mean force in still water [N]. The forces are averages over
-    /// `output.series_interval_s`.
-    pub peak_fluid_force_n: f64,
-    /// Largest resultant of the contact forces from bed, walls and other units [N]. The forces are averages over
-    /// `output.series_interval_s`.
-    pub peak_contact_force_n: f64,
-    /// Number of contact events with bed and walls.
-    pub bed_contacts: u64,
-    /// Number of contact events with other units. An event of two units counts for only one of them.
-    pub unit_contacts: u64,
-}
-
-impl UnitSummary {
-    /// Computes displacement, direction and damage from first and last position [m]. Sets forces and contacts to zero.
-    pub fn moved(unit: u32, start_m: [f64; 3], end_m: [f64; 3], rotation_deg: f64, damage_distance_m: f64) -> Self {
-        let (dx, dy) = (end_m[0] - start_m[0], end_m[1] - start_m[1]);
-        let displacement_m = dx.hypot(dy);
-        Self {
-            unit,
-            displacement_m,
-            damaged: displacement_m > damage_distance_m,
-            direction_deg: if displacement_m > 0.0 { dy.atan2(dx).to_degrees() } else { 0.0 },
-            start_m,
-            end_m,
-            rotation_deg,
-            ..Self::default()
-        }
-    }
 }
 
 /// Share of units damaged by movement and by breakage, from `breakage.json`.
@@ -267,20 +224,38 @@ impl Summary {
     /// Name of the file with a summary of the run so far; a run deletes it at its end.
     pub const PROGRESS_FILE: &str = "progress.json";
 
-    /// Sets the results of the units, and computes damage ratio and mean displacement from them.
+    /// Sets the results of units of one group, and computes damage ratio and mean displacement from them.
     pub fn set_units(&mut self, units: Vec<UnitSummary>, damage_distance_m: f64) {
-        let count = units.len() as f64;
-        self.damage_distance_m = (!units.is_empty()).then_some(damage_distance_m);
-        self.damage_ratio =
-            (!units.is_empty()).then(|| units.iter().filter(|unit| unit.damaged).count() as f64 / count);
-        self.mean_displacement_m =
-            (!units.is_empty()).then(|| units.iter().map(|unit| unit.displacement_m).sum::<f64>() / count);
+        let numbers = [1, units.len() as u32];
+        let group = GroupSummary { name: "units".to_owned(), units: numbers, damage_distance_m, ..Default::default() };
+        let groups = if units.is_empty() { Vec::new() } else { vec![group] };
+        self.set_groups(groups, units);
+    }
+
+    /// Sets the results of the units, and computes damage ratio and mean displacement of all units and of each group.
+    pub fn set_groups(&mut self, mut groups: Vec<GroupSummary>, units: Vec<UnitSummary>) {
+        for group in &mut groups {
+            let [ratio, mean] = averages(&units, |unit| group.contains(unit)).unwrap_or_default();
+            (group.damage_ratio, group.mean_displacement_m) = (ratio, mean);
+        }
+        let moves = |unit: u32| groups.iter().any(|group| !group.fixed && group.contains(unit));
+        let all = averages(&units, moves);
+        self.damage_ratio = all.map(|[ratio, _]| ratio);
+        self.mean_displacement_m = all.map(|[_, mean]| mean);
+        self.damage_distance_m = groups.iter().find(|group| !group.fixed).map(|group| group.damage_distance_m);
+        self.groups = groups;
         self.units = units;
     }
 
     /// Returns the number of damaged units.
     pub fn damaged(&self) -> usize {
         self.units.iter().filter(|unit| unit.damaged).count()
+    }
+
+    /// Returns the number of units that can move.
+    pub fn movable(&self) -> usize {
+        let is_fixed = |unit: &&UnitSummary| self.groups.iter().any(|group| group.fixed && group.contains(unit.unit));
+        self.units.len() - self.units.iter().filter(is_fixed).count()
     }
 
     /// Returns a copy without computing time and machine. If a case is run twice, the two copies are equal.
@@ -348,6 +323,32 @@ mod tests {
         assert_eq!((summary.units[0].damaged, summary.units[1].damaged), (false, true));
         assert_eq!(summary.damage_ratio, Some(0.5));
         assert!((summary.mean_displacement_m.unwrap() - 0.075).abs() < 1e-12);
+    }
+
+    #[test]
+    fn groups_have_their_own_damage_and_fixed_units_do_not_count() {
+        let mut summary = Summary::default();
+        let group = |name: &str, units, damage_distance_m, fixed| GroupSummary {
+            name: name.to_owned(),
+            units,
+            damage_distance_m,
+            fixed,
+            ..GroupSummary::default()
+        };
+        let unit = |unit, x, limit| UnitSummary::moved(unit, [0.0; 3], [x, 0.0, 0.0], 0.0, limit);
+        let units = vec![unit(1, 0.0, 0.01), unit(2, 0.1, 0.05), unit(3, 0.02, 0.05), unit(4, 0.3, 0.2)];
+        let groups = vec![
+            group("toe", [1, 1], 0.01, true),
+            group("armour", [2, 3], 0.05, false),
+            group("cap", [4, 4], 0.2, false),
+        ];
+        summary.set_groups(groups, units);
+        assert_eq!(summary.damage_ratio, Some(2.0 / 3.0));
+        assert!((summary.mean_displacement_m.unwrap() - 0.14).abs() < 1e-12);
+        assert_eq!((summary.damage_distance_m, summary.movable()), (Some(0.05), 3));
+        let ratios: Vec<f64> = summary.groups.iter().map(|group| group.damage_ratio).collect();
+        assert_eq!(ratios, [0.0, 0.5, 1.0]);
+        assert!((summary.groups[1].mean_displacement_m - 0.06).abs() < 1e-12);
     }
 
     #[test]

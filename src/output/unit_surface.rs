@@ -17,13 +17,26 @@ pub struct UnitSurface {
 }
 
 impl UnitSurface {
-    /// Name of the surface file in a run folder.
+    /// Name of the surface file of the first group of units in a run folder.
     pub const FILE: &str = "unit_surface.json";
 
     /// Copies the surface of a solid.
     pub fn of(solid: &Solid) -> Self {
         let vertices_m = solid.vertices().iter().map(|v| v.to_array()).collect();
         Self { vertices_m, triangles: solid.triangles().to_vec() }
+    }
+
+    /// Returns the name of the surface file of a group of equal units in a run folder; `group` counts from 0.
+    pub fn file_of(group: usize) -> String {
+        if group == 0 { Self::FILE.to_owned() } else { format!("unit_surface_{}.json", group + 1) }
+    }
+
+    /// Writes the surface of each group of equal units into a run folder.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write_groups<'a>(groups: impl Iterator<Item = &'a Solid>, dir: &Path) -> Result<(), OutputError> {
+        groups.enumerate().try_for_each(|(group, solid)| Self::of(solid).write(&dir.join(Self::file_of(group))))
     }
 
     /// Writes the surface to `path`.

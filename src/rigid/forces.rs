@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::{Contact, ContactKey, ContactPoint, Feature, LONGEST_SUBSTEP, Substep};
 use super::kinematics::{ContactMotion, Motion};
-use super::law::{ContactLaw, Material};
+use super::law::ContactLaw;
 use super::motion::Load;
 use super::record::{ContactRecords, ForceStep};
 use super::search::ground::places_between;
-use super::setup::RigidSetup;
+use super::setup::{BodyKind, RigidSetup};
 
 /// Energy balance of all bodies [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
 /// load_work is constant. Small errors come from the time stepping, and from the change of the tangential stiffness
@@ -31,16 +31,30 @@ pub struct Energy {
 }
 
 /// Contact laws of all pairs of surfaces.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Laws {
-    unit: ContactLaw,
-    ground: ContactLaw,
-    /// Law of the cover, for the ground elements from the first to the last number.
-    cover: Option<([u32; 2], ContactLaw)>,
-    wall: ContactLaw,
-    mass: f64,
-    least_inertia: f64,
+    kinds: Vec<LawsOfKind>,
+    /// The first and the last number of the ground elements under the cover.
+    cover: Option<[u32; 2]>,
+    /// Number of the first element of each triangle surface.
+    first_places: Vec<u32>,
     least_radius: f64,
+}
+
+/// Contact laws of the bodies of one kind.
+#[derive(Debug, Clone)]
+struct LawsOfKind {
+    /// With each kind of body.
+    bodies: Vec<ContactLaw>,
+    ground: ContactLaw,
+    cover: Option<ContactLaw>,
+    /// With each triangle surface.
+    surfaces: Vec<ContactLaw>,
+    wall: ContactLaw,
+    /// Mass [kg]; infinite for fixed bodies.
+    mass: f64,
+    /// Lower bound of the principal moments of inertia [kg m2].
+    least_inertia: f64,
 }
 
 /// Result of one evaluation of all contacts.
@@ -55,36 +69,28 @@ pub struct Evaluation {
 }
 
 impl Laws {
-    /// Creates the contact laws. The effective radius is the rounding radius R on ground and walls, R/2 between bodies.
+    /// Creates the contact laws. On ground and walls, effective mass and radius are those of the body. Between two
+    /// bodies, they are half of the harmonic mean: m = m_a m_b / (m_a + m_b), R = R_a R_b / (R_a + R_b).
     pub fn new(setup: &RigidSetup) -> Self {
-        let RigidSetup { friction, model, material, wall_material, .. } = setup;
-        let mass = setup.shape.mass;
-        let radius = setup.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min);
-        let ground = setup.ground.as_ref().map_or(*material, |g| g.material);
-        let fixed = |other: &Material, resistance| ContactLaw::new(*model, material, other, resistance, mass, radius);
-        let cover = setup.ground.as_ref().and_then(|g| Some((g.cover?, &g.profile)));
-        Self {
-            unit: ContactLaw::new(*model, material, material, friction.unit_unit, 0.5 * mass, 0.5 * radius),
-            ground: fixed(&ground, friction.unit_ground),
-            cover: cover.map(|(c, profile)| (places_between(profile, c.x), fixed(&c.material, c.resistance))),
-            wall: fixed(wall_material, friction.unit_wall),
-            mass,
-            least_radius: radius,
-            // The smallest eigenvalue of an inertia tensor is at least determinant / (trace / 2)^2.
-            least_inertia: setup.shape.inertia.determinant()
-                / (0.5 * (0..3).map(|i| setup.shape.inertia.col(i)[i]).sum::<f64>()).powi(2),
-        }
+        let cover = setup.ground.as_ref().and_then(|ground| Some(places_between(&ground.profile, ground.cover?.x)));
+        let least_radius = setup.kinds.iter().map(rounding).fold(f64::MAX, f64::min);
+        let kinds = setup.kinds.iter().map(|kind| LawsOfKind::new(kind, setup)).collect();
+        Self { kinds, cover, first_places: setup.first_places().collect(), least_radius }
     }
 
-    fn law_of(&self, feature: Feature) -> &ContactLaw {
-        match feature {
-            Feature::Unit { .. } => &self.unit,
-            Feature::Ground { place, .. } => match &self.cover {
-                Some(([first, last], law)) if (*first..=*last).contains(&place) => law,
-                _ => &self.ground,
+    fn law_of(&self, pair: &ContactMotion) -> &ContactLaw {
+        let [kind, other] = pair.kinds();
+        let laws = &self.kinds[kind];
+        match pair.point.key.feature {
+            Feature::Unit { .. } => &laws.bodies[other],
+            Feature::Ground { place, .. } => match (&self.cover, &laws.cover) {
+                (Some([first, last]), Some(law)) if (*first..=*last).contains(&place) => law,
+                _ => &laws.ground,
             },
-            Feature::Terrain { .. } => &self.ground,
-            Feature::Wall { .. } => &self.wall,
+            Feature::Terrain { place, .. } => {
+                &laws.surfaces[self.first_places.partition_point(|first| *first <= place) - 1]
+            }
+            Feature::Wall { .. } => &laws.wall,
         }
     }
 
@@ -116,10 +122,10 @@ impl Laws {
             let old = previous.map_or_else(|| Contact::started(point, substep), |i| before[i].continued_as(point));
             let mut record = previous
                 .and_then(|index| old_records[index].take())
-                .unwrap_or_else(|| records.begin(point, pair.start(self.mass)));
+                .unwrap_or_else(|| records.begin(point, pair.start(self.law_of(&pair).mass())));
             let initial_overlap = old.initial_overlap.min(point.overlap);
             let deformed = DeformedContact {
-                law: self.law_of(point.key.feature),
+                law: self.law_of(&pair),
                 pair: &pair,
                 old: Contact { initial_overlap, ..old },
                 is_new: previous.is_none(),
@@ -139,28 +145,68 @@ impl Laws {
             }
             records.end(record, old.force, substep);
         }
-        out.frequency_squared = stiffness.iter().fold(0.0, |most: f64, k| most.max(k / self.mass));
+        let frequency_squared = |(k, kind): (&f64, &usize)| k / self.kinds[*kind].mass;
+        out.frequency_squared = stiffness.iter().zip(motion.placements.kind).map(frequency_squared).fold(0.0, f64::max);
         out
     }
 
     /// Adds the stiffness [N/m] of a contact to the sum of each of its bodies. A contact that can start within the
     /// longest substep counts too.
     fn add_stiffness(&self, pair: &ContactMotion, stiffness: &mut [f64]) {
-        let (point, law) = (pair.point, self.law_of(pair.point.key.feature));
+        let (point, law) = (pair.point, self.law_of(pair));
         let closing = (-pair.v_n).max(0.0);
         if -point.overlap > closing * LONGEST_SUBSTEP {
             return;
         }
         let expected = point.overlap.max(law.impact_overlap(closing));
         let s_n = law.normal_stiffness(expected);
-        let stiffness_at = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
-        // For a contact of two bodies, twice the stiffness gives an upper bound of the frequency (Gershgorin's
-        // theorem).
-        stiffness[pair.body] += if pair.partner.is_some() { 2.0 } else { 1.0 } * stiffness_at(pair.arms[0]);
-        if let Some(b) = pair.partner {
-            stiffness[b] += 2.0 * stiffness_at(pair.arms[1]);
+        // For a contact of two bodies, twice the stiffness gives an upper bound of the frequency, because
+        // (a - b)^2 <= 2 a^2 + 2 b^2. Fixed bodies do not swing.
+        let free = |(_, kind, _): &(usize, usize, DVec3)| self.kinds[*kind].mass.is_finite();
+        let share = pair.bodies().filter(free).count() as f64;
+        for (body, kind, arm) in pair.bodies().filter(free) {
+            let LawsOfKind { mass, least_inertia, .. } = self.kinds[kind];
+            stiffness[body] += share * (s_n * (1.0 + mass * arm.length_squared() / least_inertia));
         }
     }
+}
+
+impl LawsOfKind {
+    fn new(kind: &BodyKind, setup: &RigidSetup) -> Self {
+        let mass_of = |kind: &BodyKind| if kind.is_fixed { f64::INFINITY } else { kind.shape.mass };
+        let (mass, radius) = (mass_of(kind), rounding(kind));
+        let law = |other: usize, mass: f64, radius: f64| {
+            // `RigidSetup::check` has found the resistance of each pair of surfaces.
+            let resistance = setup.resistance(kind.material, other).unwrap_or(0.0.into());
+            let [a, b] = [kind.material, other].map(|index| &setup.materials[index]);
+            ContactLaw::new(setup.model, a, b, resistance, mass, radius)
+        };
+        let with =
+            |other: &BodyKind| law(other.material, effective(mass, mass_of(other)), effective(radius, rounding(other)));
+        let fixed = |other: usize| law(other, mass, radius);
+        let ground = setup.ground.as_ref();
+        let inertia = &kind.shape.inertia;
+        Self {
+            bodies: setup.kinds.iter().map(with).collect(),
+            ground: fixed(ground.map_or(kind.material, |ground| ground.material)),
+            cover: ground.and_then(|ground| ground.cover).map(|cover| fixed(cover.material)),
+            surfaces: setup.surfaces.iter().map(|surface| fixed(surface.material)).collect(),
+            wall: fixed(setup.wall_material),
+            mass,
+            // The smallest eigenvalue of an inertia tensor is at least determinant / (trace / 2)^2.
+            least_inertia: inertia.determinant() / (0.5 * (0..3).map(|i| inertia.col(i)[i]).sum::<f64>()).powi(2),
+        }
+    }
+}
+
+/// Rounding radius of the sharpest part [m].
+fn rounding(kind: &BodyKind) -> f64 {
+    kind.shape.parts.iter().map(|part| part.rounding()).fold(f64::MAX, f64::min)
+}
+
+/// Effective value a b / (a + b) of two masses or radii; b may be infinite.
+fn effective(a: f64, b: f64) -> f64 {
+    if a == f64::INFINITY { b } else { a / (1.0 + a / b) }
 }
 
 /// A contact with its relative motion over a substep.

@@ -76,6 +76,18 @@ impl<'a> ContactMotion<'a> {
         Self { point, body, partner, arms, v_n, v_t, mean, mean_n, mean_t, motion }
     }
 
+    /// Kinds of both bodies; for a contact with the ground or a wall, the kind of the body twice.
+    pub fn kinds(&self) -> [usize; 2] {
+        [self.body, self.partner.unwrap_or(self.body)].map(|body| self.motion.placements.kind[body])
+    }
+
+    /// Index of each body, its kind, and the vector from its centre of mass to the contact point [m].
+    pub fn bodies(&self) -> impl Iterator<Item = (usize, usize, DVec3)> {
+        let of = |body: usize, arm: DVec3| (body, self.motion.placements.kind[body], arm);
+        let second = self.partner.map(|body| of(body, self.arms[1]));
+        std::iter::once(of(self.body, self.arms[0])).chain(second)
+    }
+
     /// Angular velocity of the first body relative to the second, without the component along the normal [rad/s]: at
     /// the end of the substep, and the mean over the substep.
     pub fn rolling_velocities(&self) -> [DVec3; 2] {
@@ -85,7 +97,7 @@ impl<'a> ContactMotion<'a> {
         })
     }
 
-    /// State of the bodies at the start of the contact; `mass` is the mass of one body [kg].
+    /// State of the bodies at the start of the contact; `mass` is the effective mass [kg].
     pub fn start(&self, mass: f64) -> ContactStart {
         let Motion { placements, now, substep, .. } = self.motion;
         let state = |body: usize, shift: DVec3| BodyState {
@@ -100,7 +112,7 @@ impl<'a> ContactMotion<'a> {
             partner: self.partner.map(|b| state(b, self.point.shift)),
             v_n: self.v_n,
             v_t: self.v_t,
-            mass: if self.partner.is_some() { 0.5 } else { 1.0 } * mass,
+            mass,
         }
     }
 

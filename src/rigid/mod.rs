@@ -36,6 +36,6 @@ pub use forces::Energy;
 pub use law::{ContactModel, Material, Resistance, effective_young_modulus, impact_overlap};
 pub use motion::{BodyState, Load};
 pub use record::{ContactEvent, ForceHistory, ForceSample, RecordedContact};
-pub use setup::{BodyShape, Cover, Friction, Ground, RigidSetup, Sides};
+pub use setup::{Body, BodyKind, BodyShape, Cover, Ground, MaterialPair, RigidSetup, Sides, TriangleSurface};
 pub use snapshot::RigidSnapshot;
 pub use world::RigidWorld;

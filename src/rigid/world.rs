@@ -15,7 +15,7 @@ use super::kinematics::{Motion, Velocities};
 use super::motion::{self, BodyState, Load};
 use super::record::{ContactEvent, ContactRecords, RecordedContact};
 use super::search::{PartPair, Placements, Surfaces};
-use super::setup::{RigidSetup, Sides};
+use super::setup::{Body, BodyKind, BodyShape, RigidSetup, Sides};
 
 /// Number of substeps in the shortest oscillation period of a body on its contact springs [-]. With 80 substeps, the
 /// restitution of an impact is accurate to 1e-3 (see the tests). An impact lasts about two thirds of this period.
@@ -28,20 +28,45 @@ const PATH_SAFETY: f64 = 1.01;
 /// Value of `search_distance` that makes the next substep rebuild the list of part pairs.
 pub(super) const NO_PAIR_LIST: f64 = f64::NEG_INFINITY;
 
+/// Mass and inertia tensor of the bodies of one kind.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Inertia {
+    /// Mass [kg]; infinite for fixed bodies.
+    pub mass: f64,
+    /// Inertia tensor about the centre of mass [kg m2], and its inverse; the inverse is zero for fixed bodies.
+    pub tensor: DMat3,
+    pub inverse: DMat3,
+}
+
+impl Inertia {
+    fn of(kind: &BodyKind) -> Self {
+        let BodyShape { mass, inertia, .. } = kind.shape;
+        match kind.is_fixed {
+            true => Self { mass: f64::INFINITY, tensor: inertia, inverse: DMat3::ZERO },
+            false => Self { mass, tensor: inertia, inverse: inertia.inverse() },
+        }
+    }
+
+    fn is_fixed(&self) -> bool {
+        self.mass == f64::INFINITY
+    }
+}
+
 /// Rigid bodies with their contacts.
 #[derive(Debug, Clone)]
 pub struct RigidWorld {
     // Parameters.
     pub(super) surfaces: Surfaces,
     pub(super) laws: Laws,
-    pub(super) mass: f64,
-    pub(super) inverse_inertia: DMat3,
+    pub(super) inertias: Vec<Inertia>,
     pub(super) rounding: f64,
     pub(super) gravity: DVec3,
     /// Two-dimensional motion: bodies translate along x and z and rotate about y only.
     two_dimensional: bool,
     // State.
     pub(super) time: f64,
+    /// Kind of each body.
+    pub(super) kind: Vec<usize>,
     pub(super) rotation: Vec<DQuat>,
     pub(super) position: Vec<DVec3>,
     pub(super) velocity: Vec<DVec3>,
@@ -74,28 +99,30 @@ impl RigidWorld {
     pub fn new(setup: RigidSetup) -> Result<Self, RigidError> {
         setup.check()?;
         let count = setup.bodies.len();
-        let inertia = setup.shape.inertia;
-        let rotation: Vec<DQuat> = setup.bodies.iter().map(|b| b.rotation.normalize()).collect();
-        let momentum = |(b, q): (&BodyState, &DQuat)| motion::angular_momentum(*q, &inertia, b.angular_velocity);
+        let inertias: Vec<Inertia> = setup.kinds.iter().map(Inertia::of).collect();
+        let rotation: Vec<DQuat> = setup.bodies.iter().map(|b| b.state.rotation.normalize()).collect();
+        let momentum =
+            |(b, q): (&Body, &DQuat)| motion::angular_momentum(*q, &inertias[b.kind].tensor, b.state.angular_velocity);
+        let rounding_of = |kind: &BodyKind| kind.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min);
         let mut world = Self {
             surfaces: Surfaces::new(&setup),
             laws: Laws::new(&setup),
-            mass: setup.shape.mass,
-            inverse_inertia: inertia.inverse(),
-            rounding: setup.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min),
+            rounding: setup.kinds.iter().map(rounding_of).fold(f64::MAX, f64::min),
             gravity: setup.gravity,
             two_dimensional: setup.sides == Sides::TwoDimensional,
             time: 0.0,
+            kind: setup.bodies.iter().map(|b| b.kind).collect(),
             angular_momentum: setup.bodies.iter().zip(&rotation).map(momentum).collect(),
+            inertias,
             rotation,
-            position: setup.bodies.iter().map(|b| b.position).collect(),
-            velocity: setup.bodies.iter().map(|b| b.velocity).collect(),
+            position: setup.bodies.iter().map(|b| b.state.position).collect(),
+            velocity: setup.bodies.iter().map(|b| b.state.velocity).collect(),
             contact_now: vec![Load::default(); count],
             contacts: Vec::new(),
             frequency_squared: 0.0,
             energy: Energy::default(),
             records: ContactRecords::default(),
-            states: setup.bodies.clone(),
+            states: setup.bodies.iter().map(|b| b.state).collect(),
             contact_mean: vec![Load::default(); count],
             substeps: 0,
             angular_velocity: vec![DVec3::ZERO; count],
@@ -250,12 +277,16 @@ impl RigidWorld {
 
     /// Acceleration [m/s2] and torque [N m] of each body.
     fn accelerations(&self, loads: &[Load]) -> Vec<(DVec3, DVec3)> {
-        let accelerate = |(external, contact): (&Load, &Load)| {
-            let acceleration = self.gravity + (external.force + contact.force) / self.mass;
+        let accelerate = |((external, contact), kind): ((&Load, &Load), &usize)| {
+            let inertia = &self.inertias[*kind];
+            if inertia.is_fixed() {
+                return (DVec3::ZERO, DVec3::ZERO);
+            }
+            let acceleration = self.gravity + (external.force + contact.force) / inertia.mass;
             let torque = external.torque + contact.torque;
             if self.two_dimensional { (acceleration.with_y(0.0), DVec3::Y * torque.y) } else { (acceleration, torque) }
         };
-        loads.iter().zip(&self.contact_now).map(accelerate).collect()
+        loads.iter().zip(&self.contact_now).zip(&self.kind).map(accelerate).collect()
     }
 
     fn kick(&mut self, accelerations: &[(DVec3, DVec3)], dt: f64) {
@@ -269,13 +300,17 @@ impl RigidWorld {
         for body in 0..self.position.len() {
             self.position[body] += self.velocity[body] * h;
             let (q, l) = (self.rotation[body], self.angular_momentum[body]);
-            self.rotation[body] = motion::rotated(q, &self.inverse_inertia, l, h);
+            self.rotation[body] = motion::rotated(q, &self.inertias[self.kind[body]].inverse, l, h);
         }
     }
 
+    fn angular_velocity_of(&self, body: usize) -> DVec3 {
+        let inverse = &self.inertias[self.kind[body]].inverse;
+        motion::angular_velocity(self.rotation[body], inverse, self.angular_momentum[body])
+    }
+
     fn angular_velocities(&self) -> Vec<DVec3> {
-        let velocity = |(q, l): (&DQuat, &DVec3)| motion::angular_velocity(*q, &self.inverse_inertia, *l);
-        self.rotation.iter().zip(&self.angular_momentum).map(velocity).collect()
+        (0..self.position.len()).map(|body| self.angular_velocity_of(body)).collect()
     }
 
     fn add_load_work(&mut self, loads: &[Load], angular_mid: &[DVec3], h: f64) {
@@ -289,7 +324,7 @@ impl RigidWorld {
     fn update_contacts(&mut self, h: f64, linear: &[DVec3], angular: &[DVec3]) -> Result<(), RigidError> {
         self.angular_velocity = self.angular_velocities();
         self.update_near_pairs(h, linear, angular);
-        let placements = Placements { rotation: &self.rotation, position: &self.position };
+        let placements = Placements { kind: &self.kind, rotation: &self.rotation, position: &self.position };
         let contact_points =
             self.surfaces.contact_points(&self.near, placements, &self.contacts, &self.margin, self.time)?;
         let motion = Motion {
@@ -308,8 +343,8 @@ impl RigidWorld {
 
     /// Updates the list of part pairs that can be in contact after a substep `h` [s] with the given mean velocities.
     fn update_near_pairs(&mut self, h: f64, linear: &[DVec3], angular: &[DVec3]) {
-        let reach = self.surfaces.reach();
         for body in 0..self.position.len() {
+            let reach = self.surfaces.reach(self.kind[body]);
             self.path[body] += PATH_SAFETY * h * (linear[body].length() + angular[body].length() * reach);
             // The search covers everything that the body can reach in the longest substep at twice its speed.
             let speed = self.velocity[body].length() + self.angular_velocity[body].length() * reach;
@@ -320,7 +355,7 @@ impl RigidWorld {
         if self.search_distance < 2.0 * largest(&self.path) + margin {
             self.search_distance = margin + self.rounding;
             self.path.fill(0.0);
-            let placements = Placements { rotation: &self.rotation, position: &self.position };
+            let placements = Placements { kind: &self.kind, rotation: &self.rotation, position: &self.position };
             self.pairs = self.surfaces.near_parts(placements, self.search_distance);
         }
         let within: Vec<f64> = self.path.iter().zip(&self.margin).map(|(path, margin)| path + margin).collect();
@@ -333,16 +368,19 @@ impl RigidWorld {
         self.energy.kinetic = 0.0;
         self.energy.potential = 0.0;
         for body in 0..self.position.len() {
-            let l = self.angular_momentum[body];
             let state = BodyState {
                 position: self.position[body],
                 rotation: self.rotation[body],
                 velocity: self.velocity[body],
-                angular_velocity: motion::angular_velocity(self.rotation[body], &self.inverse_inertia, l),
+                angular_velocity: self.angular_velocity_of(body),
             };
-            self.energy.kinetic += 0.5 * (self.mass * state.velocity.length_squared() + l.dot(state.angular_velocity));
-            self.energy.potential -= self.mass * self.gravity.dot(state.position);
             self.states[body] = state;
+            let Inertia { mass, .. } = self.inertias[self.kind[body]];
+            if mass.is_finite() {
+                let spin = self.angular_momentum[body].dot(state.angular_velocity);
+                self.energy.kinetic += 0.5 * (mass * state.velocity.length_squared() + spin);
+                self.energy.potential -= mass * self.gravity.dot(state.position);
+            }
         }
     }
 }

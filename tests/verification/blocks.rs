@@ -74,7 +74,7 @@ pub fn inside(point: DVec3) -> bool {
 
 /// Returns the water as sorted by the solver, and the rates of its particles in the same order.
 pub fn rates(parameters: Parameters, water: Water, low: DVec3, high: DVec3) -> (Water, Vec<Rate>) {
-    rates_beside(parameters, water, Boundary::new(&[], &[], &[], 0, RHO0), [low, high])
+    rates_beside(parameters, water, Boundary::new(&[], &[], &[], RHO0), [low, high])
 }
 
 /// Returns the same as [`rates`], for water next to boundary particles.

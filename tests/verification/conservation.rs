@@ -99,7 +99,7 @@ fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters
     let mut parameters = parameters(dp, 0.2, 0.0, None);
     adjust(&mut parameters);
     let mut water = drop_of_water(RADIUS, dp, |x| RHO0 * (1.0 + squeezed * (60.0 * x).cos()));
-    let mut boundary = Boundary::new(&[], &[], &[], 0, RHO0);
+    let mut boundary = Boundary::new(&[], &[], &[], RHO0);
     let mut solver = Solver::new(parameters, DVec3::splat(-0.3), DVec3::splat(0.3));
     let start = (momentum(&water), angular_momentum(&water));
     let weighted_sum = |of: &dyn Fn(usize) -> DVec3, water: &Water| {

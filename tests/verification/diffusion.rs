@@ -33,7 +33,7 @@ fn density_rates(boundary: BoundaryCondition, diffusion: DensityDiffusion) -> Ve
     let (water, rates) = rates_beside(
         parameters,
         block(JITTER, density, |_| DVec3::ZERO),
-        Boundary::new(&wall, &[], &[], 0, RHO0),
+        Boundary::new(&wall, &[], &[], RHO0),
         [DVec3::splat(-0.15), DVec3::splat(0.15)],
     );
     water.position.into_iter().zip(rates.iter().map(|rate| rate.density)).collect()
@@ -74,7 +74,7 @@ fn largest_rate(diffusion: DensityDiffusion, slope: f64, ripple: f64) -> f64 {
     let (water, rates) = rates_beside(
         parameters,
         block(JITTER, density, |_| DVec3::ZERO),
-        Boundary::new(&[], &[], &[], 0, RHO0),
+        Boundary::new(&[], &[], &[], RHO0),
         [DVec3::splat(-0.15), DVec3::splat(0.15)],
     );
     let not_at_edges = water.position.iter().zip(&rates).filter(|(p, _)| whole_axes(**p) >= 2);

@@ -16,6 +16,7 @@ mod flume_order;
 mod flume_shore;
 mod fudo_waves;
 mod given_waves;
+mod groups;
 mod incoming_waves;
 mod lattice;
 mod open_ends;

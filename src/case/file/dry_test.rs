@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{BreakageFile, ContactFile, FrictionFile, MaterialFile, MoundFile, Sides, StopFile, UnitsFile};
+use super::{BreakageFile, ContactFile, FrictionFile, MaterialFile, MoundFile, Sides, StopFile, UnitGroupsFile};
 
 /// A dry test: units on a bed without water, for a tilt, drop or settling test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -28,7 +28,7 @@ pub struct DryFile {
     #[serde(default = "default_gravity_m_s2")]
     pub gravity_m_s2: f64,
     /// The armour units.
-    pub units: UnitsFile,
+    pub units: UnitGroupsFile,
     /// Materials of units and bed, with their elastic constants.
     pub materials: Vec<MaterialFile>,
     /// Friction coefficients for each pair of materials that can touch.

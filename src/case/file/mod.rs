@@ -10,6 +10,7 @@ mod dry_test;
 mod flume;
 mod fracture;
 mod fracture_places;
+mod groups;
 mod numerics;
 mod objects;
 mod output;
@@ -27,6 +28,7 @@ pub use fracture::{
     FractureStopFile, Joints, LoadAxes, LoadFile, LoadedFaces, MethodFile, Softening, StrengthFile, VelocityFile,
 };
 pub use fracture_places::{LandmarkFile, SectionFile};
+pub use groups::UnitGroupsFile;
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Scheme, SchemeDefaults, Viscosity, WallSlip};
 pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,
@@ -76,9 +78,9 @@ pub struct CaseFile {
     // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(default, skip_serializing_if = "WavemakerFile::is_default")]
     pub wavemaker: WavemakerFile,
-    /// The armour units. Leave this key out for a flume without units.
+    /// The armour units, one group or a list of groups. Leave this key out for a flume without units.
     #[serde(default)]
-    pub units: Option<UnitsFile>,
+    pub units: Option<UnitGroupsFile>,
     /// Materials of units and bed, with their elastic constants.
     #[serde(default)]
     pub materials: Vec<MaterialFile>,

@@ -3,11 +3,18 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Armour units, all of the same shape and mass. The case places them in a row across the flume or in armour layers, or
-/// it lists their centres or poses.
+/// A group of armour units of the same shape and mass. The case places them in a row across the flume or in armour
+/// layers, or it lists their centres or poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UnitsFile {
+    /// Name of the group in reports. Default: `units`, or `group N` in a list of groups.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Fixed units do not move: they carry other units and stop the water.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub fixed: bool,
     /// Shape of a unit.
     pub shape: Shape,
     /// Height H of a Tetrapod that stands on three legs, of a Dolos or of a grooved cube, or size C of a Core-Loc [m].
@@ -62,6 +69,10 @@ pub struct UnitsFile {
     /// A unit counts as damaged if its displacement is larger than this distance [m]. Default: the height of the unit.
     #[serde(default)]
     pub damage_distance_m: Option<f64>,
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// Random deviations of the units of a row from their regular places, as if a person had placed the units. All

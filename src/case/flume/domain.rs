@@ -83,7 +83,8 @@ impl Domain {
     pub fn site(&self, flume: &Flume) -> Site {
         let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);
         let mound_x = flume.mound.map(|mound| mound.toe_x);
-        Site { profile: flume.profile.clone(), mound_x, terrain: None, x, width, sides, top_z }
+        let (profile, obstacles) = (flume.profile.clone(), self.obstacles.clone());
+        Site { profile, mound_x, terrain: None, obstacles, x, width, sides, top_z }
     }
 
     /// Returns the particle spacing at x [m].

@@ -2,6 +2,7 @@
 
 use super::terrain::SiteTerrain;
 use crate::case::file::Sides;
+use crate::geometry::axis_box::AxisBox;
 use crate::geometry::profile::Profile;
 
 /// Ground and boundaries of the area in which units stand; SI units.
@@ -13,6 +14,8 @@ pub struct Site {
     pub mound_x: Option<[f64; 2]>,
     /// Terrain: a triangulated surface on or above the ground, if any.
     pub terrain: Option<SiteTerrain>,
+    /// Fixed boxes.
+    pub obstacles: Vec<AxisBox>,
     /// x of the seaward and of the shoreward end of the area [m].
     pub x: [f64; 2],
     /// Width of the area in y [m].
@@ -24,15 +27,21 @@ pub struct Site {
 }
 
 impl Site {
-    /// Returns the higher of the levels of ground and terrain at the position (x, y) [m].
+    /// Returns the highest of the levels of ground, terrain and obstacles at the position (x, y) [m].
     pub fn level(&self, x: f64, y: f64) -> f64 {
         let surface = self.terrain.as_ref().and_then(|terrain| terrain.surface.level(x, y));
-        surface.map_or(self.profile.z(x), |z| z.max(self.profile.z(x)))
+        let is_below = |obstacle: &&AxisBox| {
+            (obstacle.low.x..=obstacle.high.x).contains(&x) && (obstacle.low.y..=obstacle.high.y).contains(&y)
+        };
+        let tops = self.obstacles.iter().filter(is_below).map(|obstacle| obstacle.high.z);
+        tops.chain(surface).fold(self.profile.z(x), f64::max)
     }
 
-    /// Returns an upper bound of the level of ground and terrain at x, for all y [m].
+    /// Returns an upper bound of the level of ground, terrain and obstacles at x, for all y [m].
     pub fn highest_at(&self, x: f64) -> f64 {
         let surface = self.terrain.as_ref().map(|terrain| terrain.surface.bounds()[1].z);
-        surface.map_or(self.profile.z(x), |z| z.max(self.profile.z(x)))
+        let is_at = |obstacle: &&AxisBox| (obstacle.low.x..=obstacle.high.x).contains(&x);
+        let tops = self.obstacles.iter().filter(is_at).map(|obstacle| obstacle.high.z);
+        tops.chain(surface).fold(self.profile.z(x), f64::max)
     }
 }

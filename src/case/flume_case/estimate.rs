@@ -7,6 +7,7 @@ use super::numerics::Numerics;
 use crate::case::file::{Sides, Viscosity};
 use crate::case::flume::domain::Water;
 use crate::case::flume::regions::Region;
+use crate::case::units::UnitGroup;
 use crate::geometry::{axis_box::AxisBox, profile::Profile};
 use crate::sph::solver::time_step::viscous_limit;
 
@@ -118,8 +119,8 @@ impl Case {
             obstacle.volume() - core.element_product()
         };
         solid += domain.obstacles.iter().map(shell).sum::<f64>();
-        let unit_volume =
-            self.units.as_ref().map_or(0.0, |row| row.placements.len() as f64 * row.shape.volume() / row.slices);
+        let of_group = |group: &UnitGroup| group.members.len() as f64 * group.shape.volume() / group.slices;
+        let unit_volume: f64 = self.units.iter().flat_map(|units| &units.groups).map(of_group).sum();
         let (fluid, boundary, units) =
             (water_area * domain.width * per_volume, solid * per_volume, unit_volume * per_volume);
         let Numerics { h, cfl, viscosity, nu, .. } = self.numerics;

@@ -6,6 +6,7 @@ use crate::case::flume::domain::Domain;
 use crate::case::flume::regions::Region;
 use crate::case::flume_case::numerics::Numerics;
 use crate::case::reading::check::{Checker, as_text};
+use crate::case::units::{UnitGroup, UnitPose};
 
 impl Case {
     /// Returns the case of one region: its domain includes the buffers beyond the ends where water of other regions
@@ -54,8 +55,11 @@ pub(super) fn validate_contents(case: &Case, check: &mut Checker) {
     let given = format!("[{}, {}]", as_text(x[0]), as_text(x[1]));
     let of_obstacles = obstacles.iter().map(|obstacle| [obstacle.low.x, obstacle.high.x]);
     let of_units = case.units.iter().flat_map(|units| {
-        let tips = 0.5 * units.shape.unit().height();
-        units.placements.iter().map(move |pose| [pose.centre.x - tips, pose.centre.x + tips])
+        let extent = |(pose, group): (&UnitPose, &UnitGroup)| {
+            let tips = 0.5 * group.shape.height();
+            [pose.centre.x - tips, pose.centre.x + tips]
+        };
+        units.placements.iter().zip(units.group_of_each()).map(extent)
     });
     for (what, extents) in [("obstacles", of_obstacles.collect::<Vec<_>>()), ("units", of_units.collect())] {
         let low = extents.iter().map(|extent| extent[0]).fold(f64::INFINITY, f64::min);

@@ -3,6 +3,7 @@
 use super::Case;
 use crate::case::file::{Sides, Viscosity};
 use crate::case::reading::check::{Checker, as_text};
+use crate::case::units::{UnitGroup, UnitPose};
 
 /// Reynolds number of a unit below which the validation gives a warning [-]. At Reynolds numbers from 40 to 70, the
 /// force on a unit at rest is proportional to the velocity of the water. At 160, the force is not proportional to it
@@ -31,9 +32,10 @@ fn long_wave_velocity(case: &Case, x: f64) -> Option<f64> {
 /// Returns the largest Reynolds number of all units [-]; its length is the height of a unit.
 fn reynolds_number(case: &Case) -> Option<f64> {
     let units = case.units.as_ref()?;
-    let fastest =
-        units.placements.iter().filter_map(|unit| long_wave_velocity(case, unit.centre.x)).reduce(f64::max)?;
-    Some(fastest * units.shape.height() / artificial_viscosity(case).filter(|nu| *nu > 0.0)?)
+    let of_unit =
+        |(unit, group): (&UnitPose, &UnitGroup)| Some(long_wave_velocity(case, unit.centre.x)? * group.shape.height());
+    let largest = units.placements.iter().zip(units.group_of_each()).filter_map(of_unit).reduce(f64::max)?;
+    Some(largest / artificial_viscosity(case).filter(|nu| *nu > 0.0)?)
 }
 
 /// Warns if the flow around the units is too viscous.

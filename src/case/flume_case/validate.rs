@@ -148,7 +148,7 @@ impl Sections<'_> {
             Some(_) if self.file.domain.sides == Sides::TwoDimensional => {
                 ("left out in two dimensions", "remove it: units in a two-dimensional domain cannot break")
             }
-            Some(units) => return breakage::validate(file, &units.shape, self.name, check).map(Some).ok_or(Invalid),
+            Some(units) => return breakage::validate(file, units, self.name, check).map(Some).ok_or(Invalid),
         };
         check.reject("breakage", "{...}", allowed, advice);
         Err(Invalid)
@@ -164,7 +164,7 @@ pub fn surroundings<'a>(
     contact: Contact,
 ) -> Surroundings<'a> {
     let (dp, rho0) = (file.domain.dp_m, file.fluid.density_kg_m3);
-    let water = Some(WaterAround { dp, obstacles: file.domain.obstacles.len(), rho0 });
+    let water = Some(WaterAround { dp, rho0 });
     Surroundings { name, site, materials, ground_named: file.flume.material.is_some(), contact, water }
 }
 

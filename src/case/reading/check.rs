@@ -6,13 +6,15 @@ use super::error::{CaseError, CaseErrors};
 #[derive(Debug)]
 pub struct Checker {
     file: String,
+    /// Path of the section that is being checked, empty outside of a section.
+    section: String,
     errors: Vec<CaseError>,
     pub warnings: Vec<String>,
 }
 
 impl Checker {
     pub fn new(file: &str) -> Self {
-        Self { file: file.to_owned(), errors: Vec::new(), warnings: Vec::new() }
+        Self { file: file.to_owned(), section: String::new(), errors: Vec::new(), warnings: Vec::new() }
     }
 
     /// Returns the number of errors so far. A section is valid if its validation does not increase this number.
@@ -20,11 +22,29 @@ impl Checker {
         self.errors.len()
     }
 
+    /// Validates a section of the file. In `validate`, paths that begin with a full stop are relative to `section`, and
+    /// "." is the section itself.
+    pub fn in_section<T>(&mut self, section: &str, validate: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.section, section.to_owned());
+        let result = validate(self);
+        self.section = outer;
+        result
+    }
+
+    /// Returns the whole path of a key, which may be relative to the section.
+    pub fn path(&self, path: &str) -> String {
+        match path {
+            "." => self.section.clone(),
+            _ if path.starts_with('.') => format!("{}{path}", self.section),
+            _ => path.to_owned(),
+        }
+    }
+
     /// Adds an error with the message "`path` = `value`: must be `allowed`; `advice`".
     pub fn reject(&mut self, path: &str, value: impl ToString, allowed: impl Into<String>, advice: impl Into<String>) {
         self.errors.push(CaseError::Invalid {
             file: self.file.clone(),
-            path: path.to_owned(),
+            path: self.path(path),
             value: value.to_string(),
             allowed: allowed.into(),
             advice: advice.into(),
@@ -50,7 +70,8 @@ impl Checker {
 
     /// Adds a warning about a value that is allowed but probably not intended.
     pub fn warn(&mut self, warning: impl Into<String>) {
-        self.warnings.push(warning.into());
+        let warning = self.path(&warning.into());
+        self.warnings.push(warning);
     }
 
     /// Returns the collected errors.
@@ -164,6 +185,21 @@ mod tests {
         assert!(at_least(sum).contains(0.3));
         assert_eq!(at_least(1.1000001).up_to(1.1999999).text(), "at least 1.10001 and at most 1.19999");
         assert_eq!(at_least(1.2e-7 / 0.9).up_to(1.1e8 / 0.9).text(), "at least 1.33334e-7 and at most 1.22222e8");
+    }
+
+    #[test]
+    fn paths_in_a_section_are_relative() {
+        let mut check = Checker::new("x.json");
+        check.in_section("units[1]", |check| {
+            check.reject(".mass_kg", 0, "positive", "weigh a unit");
+            check.reject(".", "a", "b", "c");
+            check.reject("friction", "a", "b", "c");
+            check.warn(".count = 1: few");
+        });
+        assert_eq!(check.warnings, ["units[1].count = 1: few"]);
+        let text = check.into_errors().to_string();
+        let lines: Vec<&str> = text.lines().map(|line| line.split(" = ").next().unwrap()).collect();
+        assert_eq!(lines, ["x.json: units[1].mass_kg", "x.json: units[1]", "x.json: friction"]);
     }
 
     #[test]

@@ -14,7 +14,7 @@ use crate::case::file::{
 pub(super) const RENAMED_KEYS: [(&str, &str); 2] = [("fracture", "breakage"), ("dry", "dry_test")];
 
 /// Sections whose value is an object.
-const SECTIONS: [&str; 14] = [
+const SECTIONS: [&str; 13] = [
     "breakage",
     "contact",
     "domain",
@@ -26,7 +26,6 @@ const SECTIONS: [&str; 14] = [
     "numerics",
     "output",
     "stop",
-    "units",
     "wave",
     "wavemaker",
 ];
@@ -71,10 +70,7 @@ fn join(first: &str, rest: &str) -> String {
 }
 
 fn list_error(name: &str, path: &str) -> CaseError {
-    let advice = match path {
-        "units" => "all units of a case have one kind; write its keys by name",
-        _ => "write each value with its key; `breakwater schema` explains every key",
-    };
+    let advice = "write each value with its key; `breakwater schema` explains every key";
     CaseError::Invalid {
         file: name.to_owned(),
         path: path.to_owned(),

@@ -26,12 +26,12 @@ pub fn place(
         ("scatter", file.scatter.is_some()),
     ] {
         if written {
-            check.reject(&format!("units.{key}"), "...", "left out with `centres_m`", "the centres give all positions");
+            check.reject(&format!(".{key}"), "...", "left out with `centres_m`", "the centres give all positions");
         }
     }
     if !(1..=MAX_UNITS as usize).contains(&centres.len()) {
         check.reject(
-            "units.centres_m",
+            ".centres_m",
             format!("{} centres", centres.len()),
             format!("1 to {MAX_UNITS}"),
             "leave out `units` for a case without units",
@@ -40,7 +40,7 @@ pub fn place(
     }
     let before = check.count();
     for (index, centre) in centres.iter().enumerate() {
-        validate_centre(&format!("units.centres_m[{index}]"), centre, shape, site, check);
+        validate_centre(&format!(".centres_m[{index}]"), centre, shape, site, check);
     }
     if check.count() == before {
         validate_distances(centres, shape, site, check);
@@ -90,10 +90,11 @@ fn validate_distances(centres: &[[f64; 3]], shape: &UnitShape, site: &Site, chec
             shape.overlaps(offset)
         });
         if let Some(other) = overlapped {
+            let allowed = format!("clear of {}", check.path(&format!(".centres_m[{other}]")));
             check.reject(
-                &format!("units.centres_m[{index}]"),
+                &format!(".centres_m[{index}]"),
                 format!("[{}, {}, {}]", as_text(a[0]), as_text(a[1]), as_text(a[2])),
-                format!("clear of units.centres_m[{other}]"),
+                allowed,
                 "units may touch but must not overlap",
             );
         }

@@ -19,66 +19,103 @@ mod row;
 pub mod shape;
 mod stl;
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use self::contact::Contact;
 use self::materials::Materials;
 pub use self::pose::UnitPose;
-use self::resistance::Resistances;
 use self::shape::{UnitKind, UnitShape};
-use super::file::{Orientation, PoseFile, Sides, UnitsFile};
+use super::file::{Orientation, PoseFile, Sides, UnitGroupsFile, UnitsFile};
 use super::flume::site::Site;
 use super::reading::check::{Checker, as_text, more_than};
-use crate::rigid::Resistance;
+use crate::geometry::axis_box::AxisBox;
+use crate::rigid::MaterialPair;
 
 /// Largest number of units in one case.
 pub(super) const MAX_UNITS: u32 = 10_000;
+/// Largest number of groups of units in one case.
+const MOST_GROUPS: usize = 100;
 
 /// The armour units; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Units {
+    /// Groups of equal units, at least one.
+    pub groups: Vec<UnitGroup>,
+    /// Initial pose of each unit, group by group. In a row, units are sorted by increasing y; otherwise by their order
+    /// in the file.
+    pub placements: Vec<UnitPose>,
+    /// Material of the bed, an index into `Case::materials`.
+    pub ground_material: usize,
+    /// Material of the mound, an index into `Case::materials`.
+    pub mound_material: usize,
+    /// Friction and restitution of each pair of materials that can touch; indices into `Case::materials`.
+    pub pairs: Vec<MaterialPair>,
+}
+
+/// A group of equal units; SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnitGroup {
+    /// Name in reports.
+    pub name: String,
     /// Shape of a unit.
     pub shape: UnitShape,
     /// Mass of a unit [kg].
     pub mass: f64,
-    /// Initial pose of each unit. In a row, units are sorted by increasing y; otherwise by their order in the file.
-    pub placements: Vec<UnitPose>,
+    /// Indices of the units of this group in [`Units::placements`].
+    pub members: Range<usize>,
+    /// Fixed units do not move.
+    pub is_fixed: bool,
     /// In two dimensions, width of a unit / thickness of the particle layer [-]; 1 in three dimensions.
     pub slices: f64,
     /// A unit counts as damaged if its displacement is larger than this distance [m].
     pub damage_distance: f64,
     /// Material of the units, an index into `Case::materials`.
     pub material: usize,
-    /// Material of the bed, an index into `Case::materials`.
-    pub ground_material: usize,
-    /// Material of the mound, an index into `Case::materials`.
-    pub mound_material: usize,
-    /// Friction and restitution between two units.
-    pub on_unit: Resistance,
-    /// Friction and restitution between a unit and bed or walls.
-    pub on_ground: Resistance,
-    /// Friction and restitution between a unit and the mound.
-    pub on_mound: Resistance,
 }
 
 impl Units {
+    /// Returns the number of units.
+    pub fn count(&self) -> usize {
+        self.placements.len()
+    }
+
+    /// Returns the group of each unit.
+    pub fn group_of_each(&self) -> impl Iterator<Item = &UnitGroup> {
+        self.groups.iter().flat_map(|group| group.members.clone().map(move |_| group))
+    }
+
+    /// Returns the height of the highest unit [m].
+    pub fn tallest(&self) -> f64 {
+        self.groups.iter().map(|group| group.shape.height()).fold(0.0, f64::max)
+    }
+
     /// Returns name and content of the STL files that a run saves next to its case file; empty for other shapes.
-    pub fn files(&self) -> &[(String, Vec<u8>)] {
-        if let UnitKind::Stl(unit) = &self.shape.kind { unit.files() } else { &[] }
+    pub fn files(&self) -> impl Iterator<Item = &(String, Vec<u8>)> {
+        self.groups.iter().flat_map(UnitGroup::files)
     }
 
     /// Changes the entry `units` of a stored case: the entry then refers to [`Self::files`], and has poses instead of a
     /// placement file. Adds the content of the files to `read`, for the hash of the case.
-    pub(super) fn make_self_contained(&self, file: &mut UnitsFile, read: &mut Vec<u8>) {
-        if let UnitKind::Stl(unit) = &self.shape.kind {
-            file.stl = Some(unit.entry());
-            self.files().iter().for_each(|(_, content)| read.extend(content));
+    pub(super) fn make_self_contained(&self, file: &mut UnitGroupsFile, read: &mut Vec<u8>) {
+        for (group, file) in self.groups.iter().zip(file.groups_mut()) {
+            if let UnitKind::Stl(unit) = &group.shape.kind {
+                file.stl = Some(unit.entry());
+                group.files().iter().for_each(|(_, content)| read.extend(content));
+            }
+            if file.placement_file.take().is_some() {
+                let pose =
+                    |p: &UnitPose| PoseFile { centre_m: p.centre.to_array(), quaternion_xyzw: p.rotation.to_array() };
+                file.poses = Some(self.placements[group.members.clone()].iter().map(pose).collect());
+            }
         }
-        if file.placement_file.take().is_some() {
-            let pose =
-                |p: &UnitPose| PoseFile { centre_m: p.centre.to_array(), quaternion_xyzw: p.rotation.to_array() };
-            file.poses = Some(self.placements.iter().map(pose).collect());
-        }
+    }
+}
+
+impl UnitGroup {
+    fn files(&self) -> &[(String, Vec<u8>)] {
+        if let UnitKind::Stl(unit) = &self.shape.kind { unit.files() } else { &[] }
     }
 }
 
@@ -100,38 +137,86 @@ pub(super) struct Surroundings<'a> {
 pub(super) struct WaterAround {
     /// Particle spacing [m].
     pub dp: f64,
-    /// Number of obstacles in the domain.
-    pub obstacles: usize,
     /// Reference density of the water [kg/m3].
     pub rho0: f64,
 }
 
 /// Validates the units and places them at their initial poses.
-pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
-    let unplaced = validate_unplaced(file, around, check);
-    let placements = place(file, unplaced.as_ref().map(|units| &units.shape), around, check);
-    let unplaced = unplaced?;
-    let slices = around.site.map_or(1.0, |site| planar::slices(&unplaced.shape, site));
-    Some(Units { placements: placements?, slices, ..unplaced })
+pub(super) fn validate(file: &UnitGroupsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
+    let groups = file.groups();
+    if !(1..=MOST_GROUPS).contains(&groups.len()) {
+        let advice = "leave out `units` for a case without units";
+        check.reject("units", format!("{} groups", groups.len()), format!("1 to {MOST_GROUPS} groups"), advice);
+        return None;
+    }
+    let mut placements = Vec::new();
+    let mut validate_one = |(index, group): (usize, &UnitsFile)| {
+        check.in_section(&file.path(index), |check| {
+            let unplaced = validate_unplaced(group, index, around, check);
+            let poses = place(group, unplaced.as_ref().map(|group| &group.shape), around, check);
+            let (unplaced, poses) = (unplaced?, poses?);
+            let slices = around.site.map_or(1.0, |site| planar::slices(&unplaced.shape, site));
+            let name = match file {
+                UnitGroupsFile::One(_) => "units".to_owned(),
+                UnitGroupsFile::Several(_) => format!("group {}", index + 1),
+            };
+            let members = placements.len()..placements.len() + poses.len();
+            placements.extend(poses);
+            Some(UnitGroup { name: group.name.clone().unwrap_or(name), members, slices, ..unplaced })
+        })
+    };
+    // All groups are validated, so that the user sees all errors at once.
+    let validated: Vec<Option<UnitGroup>> = groups.iter().enumerate().map(&mut validate_one).collect();
+    let groups: Vec<UnitGroup> = validated.into_iter().collect::<Option<_>>()?;
+    validate_names(&groups, check);
+    if placements.len() > MAX_UNITS as usize {
+        let advice = "remove some units";
+        check.reject("units", format!("{} units", placements.len()), format!("at most {MAX_UNITS} units"), advice);
+    }
+    with_ground(groups, placements, around, check)
 }
 
-/// Validates the units without their positions. In the result, `placements` is empty.
-pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
+/// Validates friction and restitution of all surfaces that can touch, and adds them to the units.
+pub(super) fn with_ground(
+    groups: Vec<UnitGroup>,
+    placements: Vec<UnitPose>,
+    around: &Surroundings,
+    check: &mut Checker,
+) -> Option<Units> {
+    let ground_material = around.materials.ground?;
+    let mound_material = around.materials.mound.unwrap_or(ground_material);
+    let pairs = resistance::validate(&groups, [ground_material, mound_material], around, check)?;
+    Some(Units { groups, placements, ground_material, mound_material, pairs })
+}
+
+/// Refuses two groups with the same name.
+fn validate_names(groups: &[UnitGroup], check: &mut Checker) {
+    for (index, UnitGroup { name, .. }) in groups.iter().enumerate() {
+        if name.trim().is_empty() || groups[..index].iter().any(|other| other.name == *name) {
+            let (path, value) = (format!("units[{index}].name"), format!("{name:?}"));
+            check.reject(&path, value, "a name that no other group has", "rename the group");
+        }
+    }
+}
+
+/// Validates a group of units without their positions and their friction; `index` is its index in the file. In the
+/// result, `members` is empty.
+pub(super) fn validate_unplaced(
+    file: &UnitsFile,
+    index: usize,
+    around: &Surroundings,
+    check: &mut Checker,
+) -> Option<UnitGroup> {
     let before = check.count();
-    let shape = shape::validate(file, around.contact.rounding_share, around.name, check);
+    let stem = if index == 0 { "unit".to_owned() } else { format!("unit_{}", index + 1) };
+    let shape = shape::validate(file, around.contact.rounding_share, around.name, &stem, check);
     if let Some(shape) = &shape {
         shape::validate_mass(file.mass_kg, shape, around.water.as_ref().map(|water| water.rho0), check);
     }
     if let Some(distance) = file.damage_distance_m {
-        check.number(
-            "units.damage_distance_m",
-            distance,
-            more_than(0.0).up_to(1000.0),
-            "m",
-            "the unit's height is usual",
-        );
+        check.number(".damage_distance_m", distance, more_than(0.0).up_to(1000.0), "m", "the unit's height is usual");
     }
-    let material = materials::find(&around.materials.list, &file.material, "units.material", check);
+    let material = materials::find(&around.materials.list, &file.material, ".material", check);
     if !around.ground_named {
         check.reject(
             "flume.material",
@@ -140,25 +225,19 @@ pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: 
             "write the material of the bed",
         );
     }
-    let friction = resistance::validate(material, around, check);
     if check.count() > before {
         return None;
     }
-    let Resistances { on_unit, on_ground, on_mound } = friction?;
-    let ground_material = around.materials.ground?;
     let shape = shape?;
-    Some(Units {
+    Some(UnitGroup {
+        name: String::new(),
         mass: file.mass_kg,
-        placements: Vec::new(),
+        members: 0..0,
+        is_fixed: file.fixed,
         slices: 1.0,
         damage_distance: file.damage_distance_m.unwrap_or(shape.height()),
         shape,
         material: material?,
-        ground_material,
-        mound_material: around.materials.mound.unwrap_or(ground_material),
-        on_unit,
-        on_ground,
-        on_mound,
     })
 }
 
@@ -173,7 +252,7 @@ fn place(
     let posed = file.poses.is_some() || file.placement_file.is_some();
     if file.armour.is_some() && !posed {
         check.reject(
-            "units.armour",
+            ".armour",
             "{ ... }",
             "accompanied by `poses` or a `placement_file`",
             "run `breakwater place` on the case and add the `placement_file` that it writes",
@@ -181,7 +260,7 @@ fn place(
         return None;
     }
     if posed && file.orientation != Orientation::default() {
-        check.warn("units.orientation: has no effect on units with `poses` or a `placement_file`");
+        check.warn(".orientation: has no effect on units with `poses` or a `placement_file`");
     }
     let is_row = file.centres_m.is_none() && !posed;
     let row = if is_row { Some(row::validate(file, shape, check)?) } else { None };
@@ -203,6 +282,7 @@ fn place(
         _ => poses::place(file, around.name, shape, site, check)?,
     };
     validate_above_terrain(&placements, site, check);
+    validate_outside_obstacles(&placements, shape, site, check);
     Some(if in_layer { planar::lay(placements, site, check) } else { placements })
 }
 
@@ -214,7 +294,7 @@ fn validate_above_terrain(placements: &[UnitPose], site: &Site, check: &mut Chec
     if let Some((index, level)) = below {
         let [x, y, z] = placements[index].centre.to_array().map(as_text);
         check.reject(
-            "units",
+            ".",
             format!("unit {} with its centre at ({x}, {y}, {z}) m", index + 1),
             format!("above the terrain, which is at z = {} m there", as_text(level)),
             "raise the unit or lower the terrain",
@@ -222,19 +302,43 @@ fn validate_above_terrain(placements: &[UnitPose], site: &Site, check: &mut Chec
     }
 }
 
-/// Refuses obstacles in a case with units. Warns of units that are small compared with the particle spacing.
-fn validate_water(water: &WaterAround, shape: &UnitShape, check: &mut Checker) {
-    if water.obstacles > 0 {
+/// Largest depth of a unit inside an obstacle, divided by the height of the unit [-]: the contact forces then separate
+/// them gently.
+const LARGEST_OVERLAP: f64 = 0.01;
+
+/// Refuses a unit that is inside an obstacle.
+fn validate_outside_obstacles(placements: &[UnitPose], shape: &UnitShape, site: &Site, check: &mut Checker) {
+    let images = if site.sides == Sides::Periodic { vec![-1.0, 0.0, 1.0] } else { vec![0.0] };
+    let is_in = |pose: &UnitPose, obstacle: &AxisBox| {
+        images.iter().any(|image| {
+            let from = pose.centre + DVec3::Y * (image * site.width);
+            let deepest = -LARGEST_OVERLAP * shape.height();
+            shape.unit().solid().vertices().iter().any(|v| obstacle.locate(from + pose.rotation * *v).1 < deepest)
+        })
+    };
+    let inside = placements.iter().enumerate().find_map(|(index, pose)| {
+        Some((index, pose, site.obstacles.iter().position(|obstacle| is_in(pose, obstacle))?))
+    });
+    if let Some((index, pose, obstacle)) = inside {
+        let [x, y, z] = pose.centre.to_array().map(as_text);
         check.reject(
-            "domain.obstacles",
-            format!("{} obstacles", water.obstacles),
-            "none in a case with units",
-            "units would move through an obstacle: contact between them is not computed",
+            ".",
+            format!("unit {} with its centre at ({x}, {y}, {z}) m", index + 1),
+            format!("outside domain.obstacles[{obstacle}]"),
+            "move the unit or the obstacle",
         );
     }
+}
+
+/// Warns of units that are small compared with the particle spacing.
+fn validate_water(water: &WaterAround, shape: &UnitShape, check: &mut Checker) {
     if shape.height() < 8.0 * water.dp {
+        let of_group = match check.path(".").as_str() {
+            "units" => String::new(),
+            group => format!(" of {group}"),
+        };
         check.warn(format!(
-            "domain.dp_m = {}: a unit is {:.1} particles high; with fewer than 8, the water forces are inaccurate",
+            "domain.dp_m = {}: a unit{of_group} is {:.1} particles high; with fewer than 8, the water forces are inaccurate",
             as_text(water.dp),
             shape.height() / water.dp
         ));

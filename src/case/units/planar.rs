@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-3;
 pub fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check: &mut Checker) {
     if !matches!(shape.kind, UnitKind::Cuboid { .. }) {
         check.reject(
-            "units.shape",
+            ".shape",
             format!("{:?}", file.shape.key()),
             "\"cuboid\" where `domain.sides` is \"two_dimensional\"",
             "in two dimensions, only cuboids are allowed: use cuboids, or \"periodic\" or \"walls\"",
@@ -27,7 +27,7 @@ pub fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check: &mut C
     }
     if is_row {
         check.reject(
-            "units.centres_m",
+            ".centres_m",
             "(missing)",
             "a list of centres where `domain.sides` is \"two_dimensional\"",
             "in two dimensions only one unit fits across the flume: write `centres_m` or `poses` instead of a row",
@@ -42,7 +42,7 @@ pub fn lay(placements: Vec<UnitPose>, site: &Site, check: &mut Checker) -> Vec<U
         let out_of_plane = rotation.x.hypot(rotation.z);
         if out_of_plane > ROUNDING {
             check.reject(
-                &format!("units.poses[{index}].quaternion_xyzw"),
+                &format!(".poses[{index}].quaternion_xyzw"),
                 format!("x and z components of size {}", as_text(out_of_plane)),
                 "a rotation about y, [0, y, 0, w], where `domain.sides` is \"two_dimensional\"",
                 "rotate the unit only about y, or write \"periodic\" or \"walls\"",

@@ -34,15 +34,15 @@ pub fn place(
         ("centres_m", file.centres_m.is_some()),
     ] {
         if written {
-            check.reject(&format!("units.{key}"), "...", "left out with poses", "poses give every position");
+            check.reject(&format!(".{key}"), "...", "left out with poses", "poses give every position");
         }
     }
     let (poses, path) = match (&file.poses, &file.placement_file) {
-        (Some(poses), None) => (poses.clone(), "units.poses"),
-        (None, Some(path)) => (read(path, case_name, check)?, "units.placement_file"),
+        (Some(poses), None) => (poses.clone(), ".poses"),
+        (None, Some(path)) => (read(path, case_name, check)?, ".placement_file"),
         _ => {
             let advice = "keep one of the two keys";
-            check.reject("units.poses", "[...]", "left out with `placement_file`", advice);
+            check.reject(".poses", "[...]", "left out with `placement_file`", advice);
             return None;
         }
     };
@@ -84,7 +84,7 @@ fn read(path: &str, case_name: &str, check: &mut Checker) -> Option<Vec<PoseFile
         Err(reason) => {
             let advice = "`breakwater place CASE` writes a placement file";
             let shown = format!("{:?}", path.display().to_string());
-            check.reject("units.placement_file", shown, format!("a placement file ({reason})"), advice);
+            check.reject(".placement_file", shown, format!("a placement file ({reason})"), advice);
             None
         }
     }

@@ -31,7 +31,7 @@ pub fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker
     {
         if missing {
             check.reject(
-                &format!("units.{key}"),
+                &format!(".{key}"),
                 "(missing)",
                 "given for a row of units",
                 "write `count`, `pitch_m` and `x_m`, or list the positions of the units as `centres_m`",
@@ -41,9 +41,9 @@ pub fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker
     let (count, pitch, x) = (file.count?, file.pitch_m?, file.x_m?);
     let scatter = file.scatter.unwrap_or(ScatterFile { position_m: 0.0, angle_deg: 0.0, seed: 0 });
     let advice = "a few millimetres are usual in a laboratory";
-    check.number("units.scatter.position_m", scatter.position_m, at_least(0.0).up_to(100.0), "m", advice);
+    check.number(".scatter.position_m", scatter.position_m, at_least(0.0).up_to(100.0), "m", advice);
     let advice = "a few degrees are usual in a laboratory";
-    check.number("units.scatter.angle_deg", scatter.angle_deg, at_least(0.0).up_to(LARGEST_SCATTER), "degrees", advice);
+    check.number(".scatter.angle_deg", scatter.angle_deg, at_least(0.0).up_to(LARGEST_SCATTER), "degrees", advice);
     if let Some(shape) = shape {
         let least = shape.least_pitch() + 2.0 * scatter.position_m;
         let range = match shape.kind {
@@ -56,10 +56,10 @@ pub fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker
             UnitKind::Cuboid { .. } => "units closer than their edge across the flume overlap",
             _ => "units closer than their width across the flume may overlap",
         };
-        check.number("units.pitch_m", pitch, range, "m", advice);
+        check.number(".pitch_m", pitch, range, "m", advice);
     }
     if !(1..=MAX_UNITS).contains(&count) {
-        check.reject("units.count", count, format!("1 to {MAX_UNITS}"), "leave out `units` for a case without units");
+        check.reject(".count", count, format!("1 to {MAX_UNITS}"), "leave out `units` for a case without units");
     }
     let row = Row { count, pitch, x, first_y: file.first_y_m, orientation: file.orientation, scatter };
     (check.count() == before).then_some(row)
@@ -69,7 +69,7 @@ pub fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker
 pub fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> Vec<UnitPose> {
     let [margin, reach] = shape.reach().map(|reach| reach + row.scatter.position_m);
     check.number(
-        "units.x_m",
+        ".x_m",
         row.x,
         more_than(site.x[0] + margin).below(site.x[1] - margin),
         "m",
@@ -93,7 +93,7 @@ pub fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> 
             let widest = length + 2.0 * reach;
             if widest > site.width {
                 check.reject(
-                    "units.count",
+                    ".count",
                     row.count,
                     format!("such that the row, {} m wide, fits between the walls", as_text(widest)),
                     format!("write fewer units, a smaller pitch or a width of at least {} m", lower_limit(widest)),
@@ -101,7 +101,7 @@ pub fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> 
             } else if first_y < reach || first_y + length > site.width - reach {
                 let last = site.width - reach - length;
                 check.reject(
-                    "units.first_y_m",
+                    ".first_y_m",
                     as_text(first_y),
                     format!("at least {} and at most {} m between the walls", lower_limit(reach), upper_limit(last)),
                     "leave it out to centre the row",
@@ -126,7 +126,7 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
     let slack = 1e-9;
     if length > width + slack || f64::from(row.count) != (width / row.pitch).round() {
         check.reject(
-            "units.count",
+            ".count",
             row.count,
             format!("such that count x pitch = {} m fills the periodic width, {} m", as_text(length), as_text(width)),
             "the row must fit the periodic width: change `units.count`, `units.pitch_m` or `domain.width_m`",
@@ -135,7 +135,7 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
     }
     if length < width - 1e-6 {
         check.warn(format!(
-            "units.pitch_m = {}: neighbours across the periodic sides are {} m apart",
+            ".pitch_m = {}: neighbours across the periodic sides are {} m apart",
             as_text(row.pitch),
             as_text(width - length + row.pitch)
         ));
@@ -143,7 +143,7 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
     let turned = matches!(row.orientation, Orientation::Alternating | Orientation::AlternatingReversed);
     if turned && row.count > 1 && row.count % 2 == 1 {
         check.reject(
-            "units.count",
+            ".count",
             row.count,
             "even when the units alternate and the sides are periodic",
             "add or remove one unit, so that neighbours across the periodic sides alternate too",
@@ -152,7 +152,7 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
     let last = width - (length - row.pitch);
     if !(first_y >= 0.0 && first_y <= last + slack) {
         check.reject(
-            "units.first_y_m",
+            ".first_y_m",
             as_text(first_y),
             format!("at least 0 and at most {} m", upper_limit(last)),
             "leave it out to centre the row",

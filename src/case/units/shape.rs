@@ -164,8 +164,15 @@ impl UnitShape {
     }
 }
 
-/// Validates the dimensions of a unit and builds its shape; `name` is the path of the case file.
-pub fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut Checker) -> Option<UnitShape> {
+/// Validates the dimensions of a unit and builds its shape; `name` is the path of the case file. The names of stored STL
+/// files begin with `stem`.
+pub fn validate(
+    file: &UnitsFile,
+    rounding_share: f64,
+    name: &str,
+    stem: &str,
+    check: &mut Checker,
+) -> Option<UnitShape> {
     let before = check.count();
     refuse_keys_of_other_shapes(file, check);
     let kind = match file.shape {
@@ -181,17 +188,17 @@ pub fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut C
             Some(edges) => validate_cuboid(edges, check),
             None => {
                 let advice = "write the edges along x, y, z";
-                check.reject("units.size_m", "(missing)", "the three edges of a cuboid", advice);
+                check.reject(".size_m", "(missing)", "the three edges of a cuboid", advice);
                 None
             }
         },
         Shape::Stl => match &file.stl {
             Some(stl) => {
-                let unit = stl::validate(stl, rounding_share, name, check)?;
+                let unit = stl::validate(stl, rounding_share, name, stem, check)?;
                 check_stl_size(&unit, stl.scale, check).then_some(UnitKind::Stl(unit))
             }
             None => {
-                check.reject("units.stl", "(missing)", "the STL files of the unit", "write \"stl\": { \"path\": ... }");
+                check.reject(".stl", "(missing)", "the STL files of the unit", "write \"stl\": { \"path\": ... }");
                 None
             }
         },
@@ -203,7 +210,7 @@ pub fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut C
         Ok(shape) => Some(shape),
         Err(error @ ArmourUnitError::Waist { waist, allowed: [low, high] }) => {
             let range = format!("between {low} and {high}");
-            check.reject("units.waist_ratio", as_text(waist), range, error.to_string());
+            check.reject(".waist_ratio", as_text(waist), range, error.to_string());
             None
         }
         Err(ArmourUnitError::Rounding { share, largest }) => {
@@ -213,7 +220,7 @@ pub fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut C
             None
         }
         Err(error) => {
-            check.reject("units.shape", format!("{:?}", file.shape.key()), error.to_string(), "change the lengths");
+            check.reject(".shape", format!("{:?}", file.shape.key()), error.to_string(), "change the lengths");
             None
         }
     }
@@ -224,7 +231,7 @@ fn refuse_keys_of_other_shapes(file: &UnitsFile, check: &mut Checker) {
     let shape = file.shape;
     let mut refuse = |key: &str, written: Option<String>, advice: &str| {
         if let Some(value) = written {
-            check.reject(&format!("units.{key}"), value, format!("left out with \"{}\"", shape.key()), advice);
+            check.reject(&format!(".{key}"), value, format!("left out with \"{}\"", shape.key()), advice);
         }
     };
     let by_size = shape == Shape::Cuboid;
@@ -240,21 +247,21 @@ fn refuse_keys_of_other_shapes(file: &UnitsFile, check: &mut Checker) {
 fn height(file: &UnitsFile, check: &mut Checker) -> Option<f64> {
     let advice = "write the unit's height in metres";
     let Some(height) = file.height_m else {
-        check.reject("units.height_m", "(missing)", format!("the height of a {}", file.shape.key()), advice);
+        check.reject(".height_m", "(missing)", format!("the height of a {}", file.shape.key()), advice);
         return None;
     };
-    check_length("units.height_m", height, advice, check).then_some(height)
+    check_length(".height_m", height, advice, check).then_some(height)
 }
 
 fn validate_cuboid(edges: [f64; 3], check: &mut Checker) -> Option<UnitKind> {
     let before = check.count();
     for (axis, edge) in edges.into_iter().enumerate() {
-        check_length(&format!("units.size_m[{axis}]"), edge, "write the edge in metres", check);
+        check_length(&format!(".size_m[{axis}]"), edge, "write the edge in metres", check);
     }
     let (shortest, longest) = edges.iter().fold((f64::MAX, 0.0_f64), |(a, b), e| (a.min(*e), b.max(*e)));
     if check.count() == before && longest > LARGEST_EDGE_RATIO * shortest {
         check.reject(
-            "units.size_m",
+            ".size_m",
             format!("{} to {} m", as_text(shortest), as_text(longest)),
             format!("edges that differ by a factor of {LARGEST_EDGE_RATIO} at most"),
             "the rounding of the edges does not fit more slender blocks",
@@ -270,8 +277,8 @@ fn check_stl_size(unit: &StlUnit, scale: f64, check: &mut Checker) -> bool {
     let fits = (SMALLEST..=LARGEST).contains(&size);
     if !fits {
         check.reject(
-            "units.stl.path",
-            format!("a unit of {} m with `units.stl.scale` = {}", as_text(size), as_text(scale)),
+            ".stl.path",
+            format!("a unit of {} m with `stl.scale` = {}", as_text(size), as_text(scale)),
             format!("a unit of {SMALLEST} to {LARGEST} m"),
             "write `scale` 0.001 for a file in millimetres, 1 for a file in metres",
         );
@@ -289,8 +296,8 @@ pub fn validate_mass(mass: f64, shape: &UnitShape, rho0: Option<f64>, check: &mu
     let volume = shape.volume();
     let range = more_than(100.0 * volume).up_to(20_000.0 * volume);
     let advice = format!("a unit of this size has a volume of {volume:.3e} m3; concrete has 2300 to 2400 kg/m3");
-    let sound = check.number("units.mass_kg", mass, range, "kg", &advice);
+    let sound = check.number(".mass_kg", mass, range, "kg", &advice);
     if sound && rho0.is_some_and(|rho0| mass < rho0 * volume) {
-        check.warn(format!("units.mass_kg = {}: the units are lighter than water and will float", as_text(mass)));
+        check.warn(format!(".mass_kg = {}: the units are lighter than water and will float", as_text(mass)));
     }
 }

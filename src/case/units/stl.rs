@@ -59,15 +59,21 @@ impl StlUnit {
 }
 
 /// Reads the STL files and checks that the convex parts fill the unit. Paths are relative to the folder of the case
-/// file `case_name`.
-pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mut Checker) -> Option<StlUnit> {
+/// file `case_name`. The names of the stored files begin with `stem`.
+pub fn validate(
+    file: &StlFile,
+    rounding_share: f64,
+    case_name: &str,
+    stem: &str,
+    check: &mut Checker,
+) -> Option<StlUnit> {
     let advice = "1 for a file in metres, 0.001 for a file in millimetres";
-    if !check.number("units.stl.scale", file.scale, more_than(0.0).up_to(1000.0), "", advice) {
+    if !check.number(".stl.scale", file.scale, more_than(0.0).up_to(1000.0), "", advice) {
         return None;
     }
     if file.parts.len() > MOST_PARTS {
         let given = format!("{} files", file.parts.len());
-        check.reject("units.stl.parts", given, format!("at most {MOST_PARTS}"), "use fewer convex parts");
+        check.reject(".stl.parts", given, format!("at most {MOST_PARTS}"), "use fewer convex parts");
         return None;
     }
     let folder = Path::new(case_name).parent().unwrap_or(Path::new(""));
@@ -114,15 +120,15 @@ pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mu
             }
         }
     };
-    let solid = read(&file.path, "units.stl.path", "unit.stl".to_owned(), check)?;
+    let solid = read(&file.path, ".stl.path", format!("{stem}.stl"), check)?;
     let mut parts = Vec::new();
     for (index, path) in file.parts.iter().enumerate() {
-        let part = read(path, &format!("units.stl.parts[{index}]"), format!("unit_part_{}.stl", index + 1), check)?;
+        let part = read(path, &format!(".stl.parts[{index}]"), format!("{stem}_part_{}.stl", index + 1), check)?;
         match Polyhedron::hull(part.vertices()) {
             Ok(hull) => parts.push(hull),
             Err(error) => {
                 let advice = "each part is replaced by its convex hull";
-                check.reject(&format!("units.stl.parts[{index}]"), format!("{path:?}"), error.to_string(), advice);
+                check.reject(&format!(".stl.parts[{index}]"), format!("{path:?}"), error.to_string(), advice);
                 return None;
             }
         }
@@ -132,14 +138,14 @@ pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mu
     let thinnest = rounding_share * (high.z - low.z) / LARGEST_ROUNDING;
     let (key, advice, found) = if parts.is_empty() {
         let advice = format!(
-            "give the convex parts as separate STL files in `units.stl.parts`; parts thinner than {} m do not fit \
+            "give the convex parts as separate STL files in `stl.parts`; parts thinner than {} m do not fit \
              contact.rounding_share = {rounding_share}",
             as_text(2.0 * thinnest)
         );
-        ("units.stl.path", advice, decomposition::decompose(&solid, thinnest))
+        (".stl.path", advice, decomposition::decompose(&solid, thinnest))
     } else {
         let advice = "check that the parts fill the unit, have no dents and are in the same place".to_owned();
-        ("units.stl.parts", advice, decomposition::measure(&solid, parts))
+        (".stl.parts", advice, decomposition::measure(&solid, parts))
     };
     let Decomposition { parts, volume_error } = found;
     if volume_error > LARGEST_ERROR || parts.is_empty() {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::CommandError;
+use super::{CommandError, MOST_LINES};
 use crate::{
     case::{BreakageSettings, Case, DryTestCase, InputFile, InputKind},
     cli::{
@@ -86,7 +86,7 @@ pub(super) fn after_dry_test(
     control: &Control,
 ) -> Result<(), CommandError> {
     let Some(settings) = &case.breakage else { return Ok(()) };
-    let limit = case.units.damage_distance;
+    let limit = case.units.groups[0].damage_distance;
     let moved = |unit: &DryUnit| Moved { displacement: unit.moved_m, damaged: unit.moved_m > limit };
     let moved: Vec<Moved> = summary.units.iter().map(moved).collect();
     analyse(&Model::of_dry(case), settings, &moved, dir, control)
@@ -116,9 +116,6 @@ fn analyse(
         .collect();
     if failures.is_empty() { Ok(()) } else { Err(CommandError::failed(failures.join("\n"))) }
 }
-
-/// Largest number of units whose results are printed to the terminal.
-const MOST_LINES: usize = 20;
 
 fn tell(breakage: &Breakage, dir: &Path) {
     println!("units of the prototype:");

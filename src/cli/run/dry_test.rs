@@ -2,7 +2,7 @@
 
 use std::{path::Path, sync::Arc};
 
-use super::{CommandError, breakage, command_error};
+use super::{CommandError, MOST_LINES, breakage, command_error};
 use crate::cli::counted;
 use crate::{
     case::DryTestCase,
@@ -15,9 +15,6 @@ use crate::{
         summary::DryTestSummary,
     },
 };
-
-/// Largest number of units whose motion is printed to the terminal.
-const MOST_LINES: usize = 20;
 
 /// Runs a dry test from its start, then the breakage analysis if the case has the key `breakage`.
 pub(super) fn run_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<(), CommandError> {
@@ -39,13 +36,11 @@ fn introduce(case: &DryTestCase, dir: &Path, quiet: bool) {
     }
     let (units, threads) = (&case.units, rayon::current_num_threads());
     eprintln!("{}", case.title);
-    eprintln!(
-        "  {} ({}) of {} kg, {} s at most, on {threads} threads",
-        counted(units.placements.len(), "unit"),
-        units.shape.kind.name(),
-        units.mass,
-        case.stop.duration
-    );
+    for group in &units.groups {
+        let (count, kind) = (counted(group.members.len(), "unit"), group.shape.kind.name());
+        eprintln!("  {count} ({kind}) of {} kg", group.mass);
+    }
+    eprintln!("  {} s at most, on {threads} threads", case.stop.duration);
     case.assumptions.iter().for_each(|assumption| eprintln!("  assumed: {assumption}"));
     eprintln!("  results in {}", dir.display());
 }

@@ -2,11 +2,11 @@
 
 use std::{path::Path, sync::Arc};
 
-use super::{CommandError, breakage, command_error, report_error};
+use super::{CommandError, MOST_LINES, breakage, command_error, report_error};
 use crate::{
     case::{Case, Reference},
     output::{
-        Summary,
+        GroupSummary, Summary,
         driver::{Control, RunError},
         progress::readable,
     },
@@ -84,9 +84,16 @@ fn tell(summary: &Summary, report: &Path, dir: &Path) {
         readable(summary.execution.wall_s),
         summary.stopped
     );
-    for unit in &summary.units {
+    for unit in summary.units.iter().take(MOST_LINES) {
         let damaged = if unit.damaged { ", damaged" } else { "" };
         println!("  unit {:2}: moved {:.3} m{damaged}", unit.unit, unit.displacement_m);
+    }
+    if summary.units.len() > MOST_LINES {
+        println!("  ... {} units in total, see summary.json", summary.units.len());
+    }
+    for group in summary.groups.iter().filter(|group| !group.fixed && summary.groups.len() > 1) {
+        let GroupSummary { name, mean_displacement_m, damage_ratio, .. } = group;
+        println!("  {name}: mean displacement {mean_displacement_m:.3} m, damage ratio {:.0} %", 100.0 * damage_ratio);
     }
     if let (Some(mean), Some(ratio)) = (summary.mean_displacement_m, summary.damage_ratio) {
         println!("  mean displacement {mean:.3} m, damage ratio {:.0} %", 100.0 * ratio);

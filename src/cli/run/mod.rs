@@ -39,6 +39,9 @@ use crate::{
     sph::device::DeviceChoice,
 };
 
+/// Largest number of units whose results are printed to the terminal.
+const MOST_LINES: usize = 20;
+
 /// Run a flume case or dry test; write tables, ParaView files, summary and, for flume cases, a report to one folder.
 #[derive(Args)]
 pub struct RunArguments {

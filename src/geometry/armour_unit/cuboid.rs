@@ -3,21 +3,12 @@
 use glam::DVec3;
 
 use super::section::Section;
+use crate::geometry::axis_box::AxisBox;
 use crate::geometry::convex::polyhedron::{Polyhedron, PolyhedronError};
-
-/// Corner `number` of a box of half-edges `half` [m] about its centre.
-fn corner(half: DVec3, number: usize) -> DVec3 {
-    let side = |axis: usize| if number >> axis & 1 == 1 { 1.0 } else { -1.0 };
-    half * DVec3::new(side(0), side(1), side(2))
-}
 
 /// Surface of a cuboid with the given edges [m], centred at the origin: vertices [m] and triangles.
 pub fn surface(edges: DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let vertices = (0..8).map(|number| corner(0.5 * edges, number)).collect();
-    // Corners of each face, counter-clockwise seen from outside: -x, +x, -y, +y, -z, +z.
-    let faces: [[u32; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-    let triangles = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
-    (vertices, triangles)
+    AxisBox::free(-0.5 * edges, 0.5 * edges).surface()
 }
 
 /// Convex polyhedron of a cuboid with the given edges [m], centred at the origin.

@@ -66,11 +66,11 @@ impl File {
         nodes
     }
 
-    /// Adds the bodies, which share one mesh. Returns the indices of their nodes.
+    /// Adds the bodies; bodies of one shape share a mesh. Returns the indices of their nodes.
     fn bodies(&mut self, bodies: &Bodies, times: &[f32]) -> Vec<usize> {
         let material = self.material(GREY, 1.0, true);
         let series = Series::new(bodies.name, GREY, 1.0, Vec::new());
-        let mesh = self.mesh(&series, &bodies.mesh, material);
+        let meshes: Vec<usize> = bodies.meshes.iter().map(|mesh| self.mesh(&series, mesh, material)).collect();
         let input = self.times(times);
         let count = bodies.list.len();
         let of_body = |index: usize| (0..times.len()).map(move |frame| frame * count + index);
@@ -80,7 +80,7 @@ impl File {
             let turns: Vec<[f32; 4]> = of_body(index).map(|at| unit(bodies.orientation[at])).collect();
             let node = self.node(json!({
                 "name": format!("unit {}", body.number),
-                "mesh": mesh,
+                "mesh": meshes[body.mesh],
                 "translation": positions[0],
                 "rotation": turns[0],
             }));
@@ -265,11 +265,11 @@ mod tests {
         water.smooth = true;
         let bodies = Bodies {
             name: "Units",
-            mesh: Mesh { values: Vec::new(), ..mesh(0.0) },
+            meshes: vec![Mesh { values: Vec::new(), ..mesh(0.0) }],
             position: vec![[0.0; 3], [1.0; 3], [2.0; 3]],
             orientation: vec![[0.0, 0.0, 0.0, 2.0]; 3],
             fields: Vec::new(),
-            list: vec![Body { number: 1, facts: Vec::new() }],
+            list: vec![Body { number: 1, mesh: 0, facts: Vec::new() }],
         };
         let clock = Clock { unit: "s", per_second: 1.0, digits: 2 };
         let bed = Series::new("Bed", "#b9ae9a", 1.0, vec![mesh(0.0)]);

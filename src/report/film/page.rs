@@ -77,8 +77,17 @@ fn of_frame(series: &Series, frame: &Mesh, corners: [[f32; 3]; 2], arrays: &mut 
     json!({ "points": points, "triangles": triangles, "values": values })
 }
 
+fn of_shape(mesh: &Mesh, arrays: &mut Arrays) -> Value {
+    let corners = bounds(&mesh.points);
+    json!({
+        "low": corners[0],
+        "high": corners[1],
+        "points": arrays.points(&mesh.points, corners),
+        "triangles": arrays.integers(mesh.triangles.as_flattened(), 1),
+    })
+}
+
 fn of_bodies(bodies: &Bodies, arrays: &mut Arrays) -> Value {
-    let corners = bounds(&bodies.mesh.points);
     let field = |(field, values): &(Field, Vec<f32>), arrays: &mut Arrays| {
         let mut described = json!(field);
         described["values"] = arrays.numbers(&values.iter().map(|value| [*value]).collect::<Vec<_>>());
@@ -86,10 +95,7 @@ fn of_bodies(bodies: &Bodies, arrays: &mut Arrays) -> Value {
     };
     json!({
         "name": bodies.name,
-        "low": corners[0],
-        "high": corners[1],
-        "points": arrays.points(&bodies.mesh.points, corners),
-        "triangles": arrays.integers(bodies.mesh.triangles.as_flattened(), 1),
+        "meshes": bodies.meshes.iter().map(|mesh| of_shape(mesh, arrays)).collect::<Vec<_>>(),
         "position": arrays.numbers(&bodies.position),
         "orientation": arrays.numbers(&bodies.orientation),
         "fields": bodies.fields.iter().map(|one| field(one, arrays)).collect::<Vec<_>>(),

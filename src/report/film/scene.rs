@@ -122,13 +122,13 @@ pub fn thinned(count: usize, most: usize) -> Vec<usize> {
     (0..kept).map(|index| index * (count - 1) / (kept - 1).max(1)).collect()
 }
 
-/// Rigid bodies of one shape.
+/// Rigid bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bodies {
     /// Name.
     pub name: &'static str,
-    /// The shape, relative to the position of a body [m].
-    pub mesh: Mesh,
+    /// The shapes, relative to the position of a body [m].
+    pub meshes: Vec<Mesh>,
     /// Positions at all times, those of all bodies at the first time first [m].
     pub position: Vec<[f32; 3]>,
     /// Orientations at all times, as quaternions x, y, z, w.
@@ -144,6 +144,8 @@ pub struct Bodies {
 pub struct Body {
     /// Number, from 1.
     pub number: u32,
+    /// Shape, an index into [`Bodies::meshes`].
+    pub mesh: usize,
     /// Names and values that the reader sees when he chooses the body.
     pub facts: Vec<(&'static str, String)>,
 }

@@ -23,8 +23,8 @@ pub struct RunFolder {
     pub motions: Vec<UnitMotion>,
     /// `energy.csv`: energy balance.
     pub energy: Option<Table>,
-    /// Surface of a unit, relative to its centre of mass.
-    pub surface: Option<UnitSurface>,
+    /// Surface of a unit of each group, relative to its centre of mass.
+    pub surfaces: Vec<UnitSurface>,
     /// Results of the breakage analysis; `None` if the run has no breakage analysis.
     pub breakage: Option<Breakage>,
 }
@@ -59,8 +59,9 @@ impl RunFolder {
             Some(table) => table.column("x_m")?.iter().zip(table.column("z_m")?).map(|(x, z)| [*x, *z]).collect(),
             None => Vec::new(),
         };
-        let surface_path = run_dir.join(UnitSurface::FILE);
-        let surface = surface_path.exists().then(|| UnitSurface::read(&surface_path)).transpose()?;
+        let surfaces = (0..summary.groups.len().max(1)).map(|group| run_dir.join(UnitSurface::file_of(group)));
+        let surfaces =
+            surfaces.take_while(|path| path.exists()).map(|path| UnitSurface::read(&path)).collect::<Result<_, _>>()?;
         Ok(Self {
             summary,
             profile,
@@ -68,10 +69,15 @@ impl RunFolder {
             flume_gauges: table("flume_gauges.csv")?,
             motions: table("units.csv")?.map_or(Ok(Vec::new()), |units| motions(&units))?,
             energy: table("energy.csv")?,
-            surface,
+            surfaces,
             breakage: Breakage::read_if_present(run_dir)?,
             dir: run_dir.to_owned(),
         })
+    }
+
+    /// Returns the index of the group of a unit, which has the number `unit`.
+    pub fn group_of(&self, unit: u32) -> usize {
+        self.summary.groups.iter().position(|group| group.contains(unit)).unwrap_or(0)
     }
 
     /// Returns true if the folder contains a file with this name.

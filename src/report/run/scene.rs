@@ -19,14 +19,14 @@ pub struct ImpactScene<'a> {
     /// Part of the flume that is drawn.
     pub window: Window,
     eye: ViewDirection,
-    surface: Option<UnitSurface>,
+    surfaces: Vec<UnitSurface>,
 }
 
 impl<'a> ImpactScene<'a> {
     /// Creates the scene for a window and a viewing direction.
     pub fn new(run: &'a RunFolder, window: Window, eye: ViewDirection) -> Self {
-        let surface = run.surface.as_ref().map(|surface| coarsened(surface, window.scale));
-        Self { run, window, eye, surface }
+        let surfaces = run.surfaces.iter().map(|surface| coarsened(surface, window.scale)).collect();
+        Self { run, window, eye, surfaces }
     }
 
     /// Draws a white background. On a dark page, the colours of the water would be hard to read without it.
@@ -85,7 +85,7 @@ impl<'a> ImpactScene<'a> {
         let mut cover = Cover::new(&self.window);
         let units = order.into_iter().map(|(unit, pose)| {
             let class = if damaged(*unit) { "unit damaged" } else { "unit" };
-            let shape = match &self.surface {
+            let shape = match self.surface_of(*unit) {
                 Some(surface) => shaded(surface, *pose, &self.window, self.eye, &mut cover),
                 None => self.disc(*pose),
             };
@@ -96,9 +96,13 @@ impl<'a> ImpactScene<'a> {
         units.collect::<Vec<_>>().into_iter().rev().collect()
     }
 
+    fn surface_of(&self, unit: u32) -> Option<&UnitSurface> {
+        self.surfaces.get(self.run.group_of(unit))
+    }
+
     /// Draws the silhouette of a unit as a pale area with an outline.
-    pub fn outline(&self, pose: Pose) -> String {
-        let Some(surface) = &self.surface else { return format!("<g class=\"ghost\">{}</g>", self.disc(pose)) };
+    pub fn outline(&self, unit: u32, pose: Pose) -> String {
+        let Some(surface) = self.surface_of(unit) else { return format!("<g class=\"ghost\">{}</g>", self.disc(pose)) };
         let data = silhouette(surface, pose, &self.window, self.eye);
         format!("<path class=\"ghost\" d=\"{data}\"/>\n")
     }
@@ -111,9 +115,9 @@ impl<'a> ImpactScene<'a> {
     }
 }
 
-/// Half the size of a unit [m], for margins and for drawing units of unknown shape.
+/// Half the size of the largest unit [m], for margins and for drawing units of unknown shape.
 pub fn unit_radius(run: &RunFolder) -> f64 {
-    let surface = run.surface.as_ref().map_or(0.0, reach);
+    let surface = run.surfaces.iter().map(reach).fold(0.0, f64::max);
     if surface > 0.0 { surface } else { 0.5 * run.summary.damage_distance_m.unwrap_or(0.1) }
 }
 

@@ -9,7 +9,7 @@ use super::{
     film, views,
 };
 use crate::{
-    output::{Stopped, Summary, UnitSummary, WaveSummary},
+    output::{GroupSummary, Stopped, Summary, UnitSummary, WaveSummary},
     report::{
         film::Scene,
         page::{grouped, section},
@@ -71,7 +71,7 @@ fn key_figures(summary: &Summary) -> String {
     if let (Some(ratio), Some(mean), Some(distance)) =
         (summary.damage_ratio, summary.mean_displacement_m, summary.damage_distance_m)
     {
-        let count = format!("{} of {} units", summary.damaged(), summary.units.len());
+        let count = format!("{} of {} units", summary.damaged(), summary.movable());
         keys.push(("Damage ratio", format!("{} %", short(100.0 * ratio, 0)), count));
         let in_distances =
             format!("{} times the damage distance of {} m", short(mean / distance, 2), short(distance, 3));
@@ -108,16 +108,45 @@ fn displacement(run: &RunFolder) -> String {
     if run.summary.units.is_empty() {
         return String::new();
     }
+    let limit = match run.summary.groups.len() {
+        0 | 1 => format!("{} m", short(run.summary.damage_distance_m.unwrap_or(0.0), 3)),
+        _ => "the damage distance of its group".to_owned(),
+    };
     let mut content = format!(
         "<p>Displacement is the horizontal distance between initial and final position of the centre of mass. A unit \
-         counts as damaged if its displacement exceeds {} m.</p>\n<figure>{}</figure>\n",
-        short(run.summary.damage_distance_m.unwrap_or(0.0), 3),
+         counts as damaged if its displacement exceeds {limit}.</p>\n{}<figure>{}</figure>\n",
+        group_table(&run.summary),
         charts::displacements(run)
     );
     if !run.motions.is_empty() {
         content += &format!("<figure>{}</figure>\n", charts::paths(run));
     }
     section("Displacement", &(content + &unit_table(&run.summary)))
+}
+
+/// Table of the groups; empty for one group.
+fn group_table(summary: &Summary) -> String {
+    if summary.groups.len() < 2 {
+        return String::new();
+    }
+    let row = |group: &GroupSummary| {
+        let [first, last] = group.units;
+        let results = match group.fixed {
+            true => "<td colspan=\"3\">fixed</td>".to_owned(),
+            false => format!(
+                "<td>{}</td><td>{} %</td><td>{:.3}</td>",
+                short(group.damage_distance_m, 3),
+                short(100.0 * group.damage_ratio, 0),
+                group.mean_displacement_m
+            ),
+        };
+        format!("<tr><td>{}</td><td>{first} to {last}</td>{results}</tr>\n", escape(&group.name))
+    };
+    let rows: String = summary.groups.iter().map(row).collect();
+    format!(
+        "<div class=\"scroll\"><table>\n<thead><tr><th>Group</th><th>Units</th><th>Damage distance [m]</th>\
+         <th>Damaged</th><th>Mean displacement [m]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+    )
 }
 
 fn unit_table(summary: &Summary) -> String {
@@ -148,7 +177,7 @@ fn unit_table(summary: &Summary) -> String {
          <figcaption>Direction in plan view: 0 is shoreward, positive is towards larger y. The peak force of the water \
          is the peak after subtraction of the mean force of still water.</figcaption>\n",
         summary.damaged(),
-        summary.units.len()
+        summary.movable()
     )
 }
 

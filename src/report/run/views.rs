@@ -65,8 +65,8 @@ fn top_view(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
         let px = window.at(point[0], 0.0)[0];
         drawing += &format!("<path class=\"edge\" d=\"M{px:.1} {top:.1}V{bottom:.1}\"/>");
     }
-    for (_, poses) in ends {
-        drawing += &scene.outline(poses[0]);
+    for (unit, poses) in ends {
+        drawing += &scene.outline(*unit, poses[0]);
     }
     drawing += &scene.units(&poses_at(ends, 1), true);
     let mut taken: Vec<[f64; 2]> = Vec::new();

@@ -109,6 +109,11 @@ impl ContactLaw {
         self.keeps_spring
     }
 
+    /// Effective mass m* [kg].
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
     /// Normal stiffness dF_n/dd at the given overlap [N/m].
     pub fn normal_stiffness(&self, overlap: f64) -> f64 {
         match self.stiffness {

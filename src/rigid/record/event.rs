@@ -33,7 +33,7 @@ pub struct ContactEvent {
     /// Tangential velocity at the start [m/s].
     pub approach_tangential: f64,
     /// Kinetic energy of the approach [J]: (1/2) m approach_normal^2; 0 if `approach_normal` is negative. m is the mass
-    /// of the unit; in a contact of two units, it is half of this mass.
+    /// of the unit; in a contact of two units, it is m_a m_b / (m_a + m_b).
     pub approach_energy: f64,
     /// Normal velocity at the end of the contact [m/s], positive when separating.
     pub rebound: f64,

@@ -18,7 +18,7 @@ use crate::geometry::convex::convex_part::ConvexPart;
 use crate::geometry::terrain::Terrain;
 use crate::rigid::contact::{Contact, ContactKey, ContactPoint, Feature, WHOLE_PART};
 use crate::rigid::error::RigidError;
-use crate::rigid::setup::{RigidSetup, Sides};
+use crate::rigid::setup::{BodyKind, RigidSetup, Sides};
 
 /// Number of bodies per task of the thread pool. Each task takes some tens of microseconds.
 const BODIES: usize = 64;
@@ -49,29 +49,45 @@ impl PartPair {
     }
 }
 
-/// Rotation and position of every body.
+/// Kind, rotation and position of every body.
 #[derive(Debug, Clone, Copy)]
 pub struct Placements<'a> {
+    /// Kinds, indices into `RigidSetup::kinds`.
+    pub kind: &'a [usize],
     /// Rotations from body to world axes, unit quaternions.
     pub rotation: &'a [DQuat],
     /// Centres of mass [m].
     pub position: &'a [DVec3],
 }
 
+/// Surface of the bodies of one kind.
+#[derive(Debug, Clone)]
+struct KindSurface {
+    parts: Vec<ConvexPart>,
+    /// Radius of the sphere about the centre of mass that encloses a body [m].
+    reach: f64,
+    is_fixed: bool,
+}
+
 /// All surfaces that can be in contact.
 #[derive(Debug, Clone)]
 pub struct Surfaces {
-    parts: Vec<ConvexPart>,
-    reach: f64,
+    kinds: Vec<KindSurface>,
     period: Option<f64>,
     ground: Option<GroundSurface>,
-    terrain: Option<Arc<Terrain>>,
+    /// Triangle surfaces, each with the number of its first element.
+    triangles: Vec<(u32, Arc<Terrain>)>,
     walls: Vec<PlaneWall>,
 }
 
 impl Surfaces {
     /// Creates the surfaces of a world.
     pub fn new(setup: &RigidSetup) -> Self {
+        let surface = |kind: &BodyKind| KindSurface {
+            parts: kind.shape.parts.clone(),
+            reach: kind.shape.reach(),
+            is_fixed: kind.is_fixed,
+        };
         let wall = |index, origin, normal| PlaneWall { index, origin, normal };
         let mut walls = Vec::new();
         if let Sides::Walls { width } = setup.sides {
@@ -81,11 +97,10 @@ impl Surfaces {
             walls.extend([wall(2, DVec3::X * seaward, DVec3::X), wall(3, DVec3::X * shoreward, DVec3::NEG_X)]);
         }
         Self {
-            parts: setup.shape.parts.clone(),
-            reach: setup.shape.reach(),
+            kinds: setup.kinds.iter().map(surface).collect(),
             period: if let Sides::Periodic { width } = setup.sides { Some(width) } else { None },
             ground: setup.ground.as_ref().map(|g| GroundSurface::new(&g.profile)),
-            terrain: setup.ground.as_ref().and_then(|g| g.terrain.clone()),
+            triangles: setup.first_places().zip(setup.surfaces.iter().map(|surface| surface.terrain.clone())).collect(),
             walls,
         }
     }
@@ -97,7 +112,8 @@ impl Surfaces {
         placements: Placements<'_>,
         time: f64,
     ) -> Result<Vec<ContactPoint>, RigidError> {
-        let pairs = broad_phase::pairs_with(body, placements.position, 2.0 * self.reach, self.period);
+        let radius = |body: usize| self.reach(placements.kind[body]);
+        let pairs = broad_phase::pairs_with(body, placements.position, radius, self.period);
         let mut contact_points = Vec::new();
         self.fixed_contact_points(body, placements, 0.0, time, &mut contact_points)?;
         let mut near = Vec::new();
@@ -108,14 +124,21 @@ impl Surfaces {
         Ok(contact_points)
     }
 
-    /// Radius of the sphere about the centre of mass that encloses a body [m].
-    pub fn reach(&self) -> f64 {
-        self.reach
+    /// Radius of the sphere about the centre of mass that encloses a body of the given kind [m].
+    pub fn reach(&self, kind: usize) -> f64 {
+        self.kinds[kind].reach
+    }
+
+    fn parts(&self, body: usize, placements: Placements<'_>) -> &[ConvexPart] {
+        &self.kinds[placements.kind[body]].parts
     }
 
     /// Pairs of parts with gaps of at most `margin` [m], ordered by body and part numbers.
     pub fn near_parts(&self, placements: Placements<'_>, margin: f64) -> Vec<PartPair> {
-        let bodies = broad_phase::pairs(placements.position, 2.0 * self.reach + margin, self.period);
+        let radius = |body: usize| self.reach(placements.kind[body]) + 0.5 * margin;
+        let is_fixed = |body: usize| self.kinds[placements.kind[body]].is_fixed;
+        let mut bodies = broad_phase::pairs(placements.position, radius, self.period);
+        bodies.retain(|pair| !(is_fixed(pair.first) && is_fixed(pair.second)));
         let near = map_chunks(&bodies, PAIRS, |pair, out| {
             self.near_parts_of(pair, placements, margin, out);
             Ok(())
@@ -127,10 +150,10 @@ impl Surfaces {
     /// Appends the pairs of parts of two bodies with gaps of at most `margin` [m].
     fn near_parts_of(&self, pair: &BodyPair, placements: Placements<'_>, margin: f64, out: &mut Vec<PartPair>) {
         let [(q_a, x_a), (q_b, x_b)] = self.poses(pair, placements);
-        for (i, part_a) in self.parts.iter().enumerate() {
+        for (i, part_a) in self.parts(pair.first, placements).iter().enumerate() {
             let (centre_a, reach_a) = part_a.bounding_sphere();
             let centre_a = q_a * centre_a + x_a;
-            for (j, part_b) in self.parts.iter().enumerate() {
+            for (j, part_b) in self.parts(pair.second, placements).iter().enumerate() {
                 let (centre_b, reach_b) = part_b.bounding_sphere();
                 let near = reach_a + reach_b + margin;
                 if (q_b * centre_b + x_b - centre_a).length_squared() > near * near {
@@ -149,7 +172,7 @@ impl Surfaces {
 
     /// Rotation and position of both bodies of a pair. The second body is at its image near the first.
     fn poses(&self, pair: &BodyPair, placements: Placements<'_>) -> [(DQuat, DVec3); 2] {
-        let Placements { rotation, position } = placements;
+        let Placements { rotation, position, .. } = placements;
         let shift = self.shift(pair);
         [(rotation[pair.first], position[pair.first]), (rotation[pair.second], position[pair.second] + shift)]
     }
@@ -169,7 +192,8 @@ impl Surfaces {
         margins: &[f64],
         time: f64,
     ) -> Result<Vec<ContactPoint>, RigidError> {
-        let bodies: Vec<usize> = (0..placements.position.len()).collect();
+        let is_free = |body: &usize| !self.kinds[placements.kind[*body]].is_fixed;
+        let bodies: Vec<usize> = (0..placements.position.len()).filter(is_free).collect();
         let fixed = map_chunks(&bodies, BODIES, |body, out| {
             self.fixed_contact_points(*body, placements, margins[*body], time, out)
         });
@@ -193,16 +217,20 @@ impl Surfaces {
         contact_points: &mut Vec<ContactPoint>,
     ) -> Result<(), RigidError> {
         let (q, x) = (placements.rotation[body], placements.position[body]);
+        // In a periodic flume, triangle surfaces are given for bodies with 0 <= y < width.
+        let image = DVec3::Y * self.period.map_or(0.0, |width| (x.y / width).floor() * width);
         let mut approaches = Vec::new();
-        for (index, part) in self.parts.iter().enumerate() {
+        for (index, part) in self.parts(body, placements).iter().enumerate() {
             approaches.clear();
             let near = part.rounding() + margin;
             if let Some(ground) = &self.ground {
                 ground.approaches(part, q, x, near, &mut approaches);
             }
-            if let Some(terrain) = &self.terrain {
-                terrain_contact::approaches(terrain, part, q, x, near, &mut approaches);
+            let from = approaches.len();
+            for (first, terrain) in &self.triangles {
+                terrain_contact::approaches((terrain, *first), part, q, x - image, near, &mut approaches);
             }
+            approaches[from..].iter_mut().for_each(|approach| approach.core += image);
             for wall in &self.walls {
                 wall.approaches(part, q, x, near, &mut approaches);
             }
@@ -225,7 +253,8 @@ impl Surfaces {
     ) -> Result<(), RigidError> {
         let PartPair { bodies, parts, .. } = pair;
         let [pose_a, pose_b] = self.poses(bodies, placements);
-        let [part_a, part_b] = parts.map(|part| &self.parts[part]);
+        let part_a = &self.parts(bodies.first, placements)[parts[0]];
+        let part_b = &self.parts(bodies.second, placements)[parts[1]];
         let roundings = [part_a.rounding(), part_b.rounding()];
         let reach = roundings[0] + roundings[1] + margin;
         let shift = self.shift(bodies);

@@ -39,9 +39,9 @@ struct Placed<'a> {
 }
 
 /// Appends to `out` the points where the core of a part of a body at (rotation, position) is nearer than `reach` [m] to
-/// the terrain.
+/// the terrain, whose elements have the numbers from `first`.
 pub fn approaches(
-    terrain: &Terrain,
+    (terrain, first): (&Terrain, u32),
     part: &ConvexPart,
     rotation: DQuat,
     position: DVec3,
@@ -55,7 +55,8 @@ pub fn approaches(
     let mut near: Vec<(u32, &SurfaceElement)> = terrain.near(centre, radius + reach).collect();
     // Elements are numbered in this order: triangles, ridges, corners.
     near.sort_unstable_by_key(|(number, _)| *number);
-    for (place, element) in near {
+    for (number, element) in near {
+        let place = first + number;
         match element {
             SurfaceElement::Face(face) => {
                 if (centre - face.corners[0]).dot(face.normal).abs() < radius + reach {
@@ -146,7 +147,7 @@ mod tests {
 
     fn near(terrain: &Terrain, part: &ConvexPart, rotation: DQuat, at: DVec3) -> Vec<Approach> {
         let mut out = Vec::new();
-        approaches(terrain, part, rotation, at, REACH, &mut out);
+        approaches((terrain, 0), part, rotation, at, REACH, &mut out);
         out
     }
 

@@ -15,7 +15,7 @@ const BISECTIONS: u32 = 12;
 /// Returns `None` if the unit already overlaps a body at `from`, or if it touches nothing down to one unit height below
 /// the level `ground` [m].
 pub(super) fn lowered(world: &RigidWorld, from: DVec3, rotation: DQuat, ground: f64, height: f64) -> Option<BodyState> {
-    let is_free = |z: f64| world.overlap_at(DVec3::new(from.x, from.y, z), rotation) == 0.0;
+    let is_free = |z: f64| world.overlap_at(0, DVec3::new(from.x, from.y, z), rotation) == 0.0;
     if !is_free(from.z) {
         return None;
     }

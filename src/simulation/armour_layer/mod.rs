@@ -100,7 +100,7 @@ pub fn place(job: &LayerJob, report: impl FnMut(usize, f64) + Send) -> Result<Ar
 fn place_rows(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<ArmourLayer, PlacementError> {
     let setup = rigid_setup(&job.units, &job.site, &job.materials, job.contact.law, job.gravity);
     let mut world = RigidWorld::new(RigidSetup { bodies: Vec::new(), ..setup })?;
-    let height = job.units.shape.height();
+    let height = job.group().shape.height();
     let scale = (job.gravity * height).sqrt();
     let mut potential_at_release = 0.0;
     for row in rows(job) {
@@ -110,8 +110,8 @@ fn place_rows(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<Armo
             let from = DVec3::new(x, y, highest(&world, &job.site, x) + 2.0 * height);
             let state = lowered(&world, from, rotation, job.site.profile.z(x), height)
                 .ok_or(PlacementError::NoRoom { unit, x, y })?;
-            potential_at_release += job.units.mass * job.gravity * state.position.z;
-            world.add(state);
+            potential_at_release += job.group().mass * job.gravity * state.position.z;
+            world.add(0, state);
             report(unit, world.time());
         }
         let begun = world.time();

@@ -23,7 +23,7 @@ const FROM_WALL: f64 = 0.68;
 
 /// Returns the rows of all layers in the order of placement: layer by layer, and in each layer from the toe upwards.
 pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
-    let (armour, unit) = (&job.armour, job.units.shape.unit());
+    let (armour, unit) = (&job.armour, job.group().shape.unit());
     let mut random = SplitMix64::new(armour.seed);
     let slope = job.slope();
     let width = job.site.width;

@@ -47,12 +47,14 @@ impl Model {
             let CaseMaterial { young_modulus, poisson_ratio, restitution, .. } = materials[index];
             Material { young_modulus, poisson_ratio, restitution }
         };
+        // The case validation allows the breakage analysis only for units of one group.
+        let group = &units.groups[0];
         Self {
-            gyration: units.shape.unit().inertia(1.0),
-            shape: units.shape.clone(),
-            mass: units.mass,
-            count: units.placements.len(),
-            material: material(units.material),
+            gyration: group.shape.unit().inertia(1.0),
+            shape: group.shape.clone(),
+            mass: group.mass,
+            count: units.count(),
+            material: material(group.material),
             ground: material(units.ground_material),
             mound: site.mound_x.map(|x| (x, material(units.mound_material))),
             law,

@@ -68,9 +68,8 @@ impl DryTest {
     /// # Errors
     /// If units overlap each other or the ground too much.
     pub fn new(case: Arc<DryTestCase>) -> Result<Self, RigidError> {
-        let setup = Self::setup(&case);
-        let start = setup.bodies.clone();
-        let world = RigidWorld::new(setup)?;
+        let world = RigidWorld::new(Self::setup(&case))?;
+        let start = world.states().to_vec();
         let mut measured = Measured { slides_at: vec![None; start.len()], ..Measured::default() };
         measured.energy_start = mechanical_energy(&world);
         measured.energy = measured.energy_start;
@@ -141,7 +140,7 @@ impl DryTest {
     /// Returns the speed of the fastest unit [m/s]: the speed of the centre plus the speed of the tips by rotation. The
     /// tips are half a unit height from the centre.
     pub fn fastest(&self) -> f64 {
-        let tips = 0.5 * self.case.units.shape.height();
+        let tips = 0.5 * self.case.units.tallest();
         let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
         self.world.states().iter().map(speed).fold(0.0, f64::max)
     }

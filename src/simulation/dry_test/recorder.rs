@@ -92,7 +92,7 @@ impl DryTestRecorder {
             write_atomically(&dir.join(SiteTerrain::FILE), &terrain.content)?;
         }
         CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?.append_rows(case.site.profile.points())?;
-        UnitSurface::of(case.units.shape.unit().solid()).write(&dir.join(UnitSurface::FILE))?;
+        UnitSurface::write_groups(case.units.groups.iter().map(|group| group.shape.unit().solid()), dir)?;
         let surfaces = |_| PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS);
         let mut recorder = Self {
             dir: dir.to_owned(),
@@ -258,8 +258,9 @@ impl DryTestRecorder {
 
     fn record_surfaces(&mut self, run: &DryTest) -> Result<(), OutputError> {
         let Some(series) = &mut self.surfaces else { return Ok(()) };
-        let solid = run.case.units.shape.unit().solid();
-        Frame::of_surfaces(solid, run.world.states(), run.world.time()).append_to(series)
+        let solids = run.case.units.group_of_each().map(|group| group.shape.unit().solid());
+        let units: Vec<_> = solids.zip(run.world.states()).collect();
+        Frame::of_surfaces(&units, run.world.time()).append_to(series)
     }
 }
 

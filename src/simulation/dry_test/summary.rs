@@ -106,7 +106,7 @@ impl DryTestSummary {
             contacts_now: run.world.contact_count(),
             contacts: measured.contacts,
             peak_force_n: measured.peak_force,
-            deepest_overlap: run.world.deepest_overlap() / run.case.units.shape.height(),
+            deepest_overlap: run.world.deepest_overlap() / run.case.units.tallest(),
             kinetic_j: energy.kinetic,
             energy_start_j: measured.energy_start,
             energy_end_j: measured.energy,

@@ -10,7 +10,7 @@ use super::{
     setup::SetupError,
 };
 use crate::{
-    case::{Case, difference},
+    case::{self, Case, difference},
     output::{
         Summary,
         driver::{RunError, drive},
@@ -48,7 +48,7 @@ impl<'a> Start<'a> {
         let mut simulation = checkpoint.set_up(&options.device, case).map_err(RunError::setup)?;
         let outputs = checkpoint.restore(&mut simulation, from)?;
         simulation.load().map_err(|error| RunError::setup(SetupError::Device(error)))?;
-        let (time, height) = (simulation.flume_time(), simulation.units.as_ref().map(|units| units.shape.height()));
+        let (time, height) = (simulation.flume_time(), simulation.case.units.as_ref().map(case::Units::tallest));
         let moved = simulation.units.iter().flat_map(Units::displacements).fold(0.0, f64::max);
         if height.is_some_and(|height| moved > STILL * height) {
             let moved = 1e3 * moved;

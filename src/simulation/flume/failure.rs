@@ -7,7 +7,8 @@ use thiserror::Error;
 
 use super::{Simulation, measures::extremes::Extremes};
 use crate::{
-    rigid::RigidError,
+    case::UnitGroup,
+    rigid::{BodyState, RigidError},
     sph::{particles::water::Water, solver::backend::DeviceError},
 };
 
@@ -164,10 +165,12 @@ pub(super) fn find_escape(simulation: &Simulation) -> Option<Failure> {
 /// unit.
 pub(super) fn find_unit_outside(simulation: &Simulation) -> Option<Failure> {
     let units = simulation.units.as_ref()?;
-    let tips = 0.5 * units.shape.height() + simulation.case.numerics.h;
     let [from, to] = simulation.own_x();
-    let is_outside = |x: f64| x - tips < from || x + tips > to;
-    let unit = units.states().iter().position(|state| is_outside(state.position.x))?;
+    let is_outside = |(group, state): (&UnitGroup, &BodyState)| {
+        let tips = 0.5 * group.shape.height() + simulation.case.numerics.h;
+        state.position.x - tips < from || state.position.x + tips > to
+    };
+    let unit = units.group_of_each().zip(units.states()).position(is_outside)?;
     let (time, step, place) = (simulation.time, simulation.steps, units.states()[unit].position);
     Some(Failure::LeftFineWater { time, step, unit: unit + 1, place })
 }

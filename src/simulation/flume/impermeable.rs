@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::{Simulation, Units, wave::ends::MovingEnd};
 use crate::{
-    case::{Case, Sides},
+    case::{Case, Sides, UnitGroup},
     geometry::{axis_box::AxisBox, convex::convex_part::ConvexPart},
     rigid::{BodyState, Load},
     sph::{
@@ -57,8 +57,8 @@ impl Simulation {
             }
             let Some(units) = units else { return };
             let impulses = keep_out_of_units(water, units, solver.grid(), bins, nearest);
-            let slices = case.units.as_ref().map_or(1.0, |units| units.slices);
-            for (load, impulse) in units.fluid_loads.iter_mut().zip(impulses) {
+            let slices: Vec<f64> = units.group_of_each().map(|group| group.slices).collect();
+            for ((load, impulse), slices) in units.fluid_loads.iter_mut().zip(impulses).zip(slices) {
                 *load += impulse.map(|sum| slices * sum / dt);
             }
         };
@@ -87,14 +87,14 @@ fn surfaces(
 ) -> Surfaces {
     let nearest = NEAREST * case.domain.dp;
     let bounding_spheres = units.into_iter().flat_map(|units| {
-        let of_unit = move |state: &BodyState| {
+        let of_unit = move |(group, state): (&UnitGroup, &BodyState)| {
             let bounding_sphere = |part: &ConvexPart| {
                 let (centre, radius) = part.bounding_sphere();
                 (state.position + state.rotation * centre, radius + nearest)
             };
-            units.shape.parts().iter().map(bounding_sphere).collect::<Vec<_>>()
+            group.shape.unit().parts().iter().map(bounding_sphere).collect::<Vec<_>>()
         };
-        units.states().iter().flat_map(of_unit).collect::<Vec<_>>()
+        units.group_of_each().zip(units.states()).flat_map(of_unit).collect::<Vec<_>>()
     });
     Surfaces {
         min_distance: nearest,
@@ -243,19 +243,21 @@ struct NearUnit {
 /// and its moment about the centre of mass [N m s].
 fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: Option<&Bins>, nearest: f64) -> Vec<Load> {
     let position = &water.position;
-    let near = |state: &BodyState| -> Vec<NearUnit> {
+    let near = |(parts, state): &(&[ConvexPart], &BodyState)| -> Vec<NearUnit> {
         let within = |particle| {
             let arm = grid.nearest_image(position[particle] - state.position);
-            let normal = normal_within(units.shape.parts(), state, arm, nearest)?;
+            let normal = normal_within(parts, state, arm, nearest)?;
             Some(NearUnit { particle, arm, normal })
         };
-        let reach = units.shape.parts().iter().map(reach_of).fold(0.0, f64::max) + nearest;
+        let reach = parts.iter().map(reach_of).fold(0.0, f64::max) + nearest;
         match bins {
             Some(bins) => candidates(grid, bins, state.position, reach).filter_map(within).collect(),
             None => (0..water.len()).filter_map(within).collect(),
         }
     };
-    let near: Vec<Vec<NearUnit>> = units.states().par_iter().map(near).collect();
+    let parts = units.group_of_each().map(|group| group.shape.unit().parts());
+    let each: Vec<(&[ConvexPart], &BodyState)> = parts.zip(units.states()).collect();
+    let near: Vec<Vec<NearUnit>> = each.par_iter().map(near).collect();
     let mut keep_out = |(state, near): (&BodyState, &Vec<NearUnit>)| {
         let mut impulse = Load::default();
         for &NearUnit { particle, arm, normal } in near {

@@ -36,8 +36,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::{
-    case::{Case, Gauge, Motion},
-    geometry::armour_unit::ArmourUnit,
+    case::{Case, Gauge, Motion, UnitGroup},
+    geometry::solid::Solid,
     rigid::{BodyState, Load, RigidWorld},
     sph::{
         pairs::rate::Rate,
@@ -96,8 +96,8 @@ pub struct Simulation {
 
 /// The armour units.
 pub struct Units {
-    /// Shape of the units.
-    pub shape: Arc<ArmourUnit>,
+    /// Groups of equal units.
+    pub groups: Vec<UnitGroup>,
     /// Solver of the rigid bodies: units, bed and contacts.
     pub world: RigidWorld,
     /// Poses of the units at the start.
@@ -195,6 +195,16 @@ impl Units {
     /// Returns the poses and velocities of the units.
     pub fn states(&self) -> &[BodyState] {
         self.world.states()
+    }
+
+    /// Returns the group of each unit.
+    pub fn group_of_each(&self) -> impl Iterator<Item = &UnitGroup> {
+        self.groups.iter().flat_map(|group| group.members.clone().map(move |_| group))
+    }
+
+    /// Returns the surface and the state of each unit.
+    pub fn solids(&self) -> Vec<(&Solid, &BodyState)> {
+        self.group_of_each().map(|group| group.shape.unit().solid()).zip(self.states()).collect()
     }
 
     /// Returns the horizontal distance of each unit from its start position [m].

@@ -161,8 +161,9 @@ fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
         return Some(Stopped::Duration);
     }
     let (rule, units) = (simulation.case.stop.at_rest.as_ref()?, simulation.units.as_ref()?);
+    let case_units = simulation.case.units.as_ref()?;
     // The tips of a unit are about half a unit height from its centre.
-    let tips = 0.5 * units.shape.height();
+    let tips = 0.5 * case_units.tallest();
     let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
     // Check the speed as well as the displacement: a unit that begins to move has no displacement yet.
     let slow = units.states().iter().all(|state| speed(state) < rule.speed);

@@ -150,13 +150,14 @@ impl Simulation {
         let reach = reach_of(&case, &ends);
 
         let (across, outline) = (across(&case), outline(&case, reach));
-        let shape_particles = units.as_ref().map_or_else(Vec::new, |units| unit_in_place(&units.shape, &case));
+        let groups = units.iter().flat_map(|units| &units.groups);
+        let unit_particles: Vec<_> =
+            groups.map(|group| (unit_in_place(group.shape.unit(), &case), group.members.len())).collect();
         let count = units.as_ref().map_or(0, |units| units.states().len());
         let boundary = Boundary::new(
             &fixed_particles(&case, &outline, &across, reach),
             &ends.iter().map(|end| end_particles(&case, &across, end)).collect::<Vec<_>>(),
-            &shape_particles,
-            count,
+            &unit_particles,
             case.fluid.rho0,
         );
         let mut water = fill(&case, &across, flume.as_deref(), start);

@@ -7,7 +7,9 @@ use std::ops::{Deref, DerefMut};
 
 use glam::DVec3;
 
-use super::{Simulation, Units, failure, failure::Failure, wave::ends::move_ends};
+use super::{
+    Simulation, Units, failure, failure::Failure, measures::water_at_impacts::RecordedUnits, wave::ends::move_ends,
+};
 use crate::{
     rigid::BodyState,
     sph::solver::{backend::DeviceError, power::Powers, sampling::Sampler},
@@ -153,8 +155,8 @@ impl Simulation {
         let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
         let loads = self.solver.unit_loads(&self.boundary, &centres)?;
         // In two dimensions, the particles represent only one slice of each unit: multiply by the number of slices.
-        let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
-        units.fluid_loads = loads.into_iter().map(|load| load.map(|sum| slices * sum)).collect();
+        let slices: Vec<f64> = units.group_of_each().map(|group| group.slices).collect();
+        units.fluid_loads = loads.into_iter().zip(slices).map(|(load, slices)| load.map(|sum| slices * sum)).collect();
         Ok(())
     }
 
@@ -162,7 +164,7 @@ impl Simulation {
     fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
         let Some(units) = &mut self.units else { return Ok(()) };
         if self.time >= self.case.numerics.hold_units {
-            let Units { world, fluid_loads, water_at_impacts, .. } = units;
+            let Units { world, fluid_loads, water_at_impacts, groups, .. } = units;
             let since = world.time();
             if let Err(error) = world.advance(dt, fluid_loads) {
                 return Err(failure::of_units(self, error));
@@ -172,7 +174,8 @@ impl Simulation {
             {
                 memory.fetch_boundary_densities(&mut self.boundary)?;
             }
-            water_at_impacts.note(world, since, fluid_loads, &self.boundary, &self.solver.parameters().tait);
+            let recorded = RecordedUnits { world, loads: fluid_loads, first_group: groups[0].members.clone() };
+            water_at_impacts.note(&recorded, since, &self.boundary, &self.solver.parameters().tait);
         } else if self.time >= 0.5 * self.case.numerics.hold_units {
             self.statistics.count_still_loads(&units.fluid_loads);
         }

@@ -26,12 +26,12 @@ const NARROWEST_GAP: f64 = 0.5;
 /// Returns the units at their start positions. `case` is the case of all regions: units collide with the end walls of
 /// the domain, not with the ends of the finest region.
 pub(super) fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, RigidError> {
-    let shape = units.shape.unit().clone();
     let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
-    let start = setup.bodies.clone();
     let world = RigidWorld::new(setup)?;
+    let start = world.states().to_vec();
     let (fluid_loads, mean_loads) = (vec![Load::default(); start.len()], MeanLoads::new(start.len()));
-    Ok(Units { shape, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
+    let groups = units.groups.clone();
+    Ok(Units { groups, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
 }
 
 /// Returns the boundary particles of a unit in body axes; in two dimensions, those of a slice of the unit. If a cuboid
@@ -69,11 +69,10 @@ pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
 /// Removes the water particles inside the units and their periodic images. Moves other particles outwards if they are
 /// too near to the surface of a unit.
 pub(super) fn clear_units(water: &mut Water, units: &Units, case: &Case) {
-    let solid = units.shape.solid();
-    let reach =
-        solid.bounds().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max) * 2.0 + case.domain.dp;
     let images = if case.domain.sides == case::Sides::Periodic { vec![-1.0, 0.0, 1.0] } else { vec![0.0] };
-    for state in units.states() {
+    for (solid, state) in units.solids() {
+        let [low, high] = solid.bounds().map(|corner| corner.abs().max_element());
+        let reach = 2.0 * low.max(high) + case.domain.dp;
         for image in &images {
             let centre = state.position + DVec3::Y * (image * case.domain.width);
             clear_solid(water, case.domain.dp, |point| {
@@ -100,7 +99,7 @@ mod tests {
             let text = given.replace(r#""scheme": "mitsui_2023""#, &wanted);
             let case = Case::from_str(&text, "cases/fudo/test.json").unwrap_or_else(|errors| panic!("{errors}"));
             let units = case.units.as_ref().expect("the slice has two units");
-            let particles = unit_in_place(units.shape.unit(), &case);
+            let particles = unit_in_place(units.groups[0].shape.unit(), &case);
             let wanted = if slides { Mirroring::Full } else { Mirroring::Normal };
             assert!(!particles.is_empty() && particles.iter().all(|particle| particle.mirroring == wanted));
         }

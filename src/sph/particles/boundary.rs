@@ -61,14 +61,13 @@ pub struct BoundaryParticle {
 }
 
 impl Boundary {
-    /// Creates the `fixed` particles of bed and walls, the particles of each piston with their row numbers, and `units`
-    /// copies of the particles of one `unit`. All particles start with the density `rho0` [kg/m3]. The units lie at the
-    /// origin until [`Self::move_unit`] moves them.
+    /// Creates the `fixed` particles of bed and walls, the particles of each piston with their row numbers, and the
+    /// `units`: for each group of equal units, the particles of one unit and the number of units. All particles start
+    /// with the density `rho0` [kg/m3]. The units lie at the origin until [`Self::move_unit`] moves them.
     pub fn new(
         fixed: &[BoundaryParticle],
         pistons: &[Vec<(u32, BoundaryParticle)>],
-        unit: &[BoundaryParticle],
-        units: usize,
+        units: &[(Vec<BoundaryParticle>, usize)],
         rho0: f64,
     ) -> Self {
         let mut boundary = Self::default();
@@ -80,8 +79,8 @@ impl Boundary {
             boundary.pistons.push(Piston { particles: first..boundary.len(), row });
         }
         boundary.first_unit = boundary.len();
-        for number in 0..units {
-            let first = boundary.len();
+        for unit in units.iter().flat_map(|(unit, count)| std::iter::repeat_n(unit, *count)) {
+            let (first, number) = (boundary.len(), boundary.units.len());
             unit.iter().for_each(|p| boundary.push(p, rho0));
             boundary.units.push(first..boundary.len());
             boundary.unit_numbers.extend(unit.iter().map(|_| number as u32));
@@ -136,9 +135,9 @@ impl Boundary {
         &self.unit_numbers
     }
 
-    /// Returns position and surface vector of each particle of a unit, in the unit's axes [m]. These values are the
-    /// same for all units.
-    pub fn positions_in_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+    /// Returns position and surface vector of each particle of the first unit, in the unit's axes [m]. These values are
+    /// the same for all units of its group.
+    pub fn positions_in_first_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let unit = self.units.first().cloned().unwrap_or_default();
         unit.map(|particle| (self.anchor[particle], self.anchor_to_surface[particle]))
     }
@@ -189,7 +188,7 @@ mod tests {
             volume: 1.0,
             mirroring: Mirroring::Normal,
         };
-        let mut boundary = Boundary::new(&[], &[], &[particle], 2, 1000.0);
+        let mut boundary = Boundary::new(&[], &[], &[(vec![particle], 2)], 1000.0);
         let quarter = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
         boundary.move_unit(
             1,

@@ -4,12 +4,12 @@ use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::rigid::{BodyShape, RigidSetup, RigidWorld};
 use glam::DVec3;
 
-use super::{MORTAR, heap, run};
+use super::{heap, kind, run};
 
 /// Asserts that ten units of about the size of the Tetrapod come to rest in a shaft.
 fn assert_settles(name: &str, unit: &ArmourUnit) {
     let mass = 2300.0 * unit.solid().volume_properties().volume;
-    let setup = RigidSetup { shape: BodyShape::from_unit(unit, mass), material: MORTAR, ..heap(unit) };
+    let setup = RigidSetup { kinds: vec![kind(BodyShape::from_unit(unit, mass))], ..heap(unit) };
     let mut world = RigidWorld::new(setup).unwrap();
     let e = world.energy();
     let start = e.kinetic + e.potential + e.elastic;

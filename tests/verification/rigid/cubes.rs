@@ -4,7 +4,7 @@ use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::rigid::{BodyShape, BodyState, RigidSetup, RigidWorld};
 use glam::{DQuat, DVec3};
 
-use super::{G, MORTAR, heap, run, setup, total_energy};
+use super::{G, GROUND, MORTAR, heap, kind, pair, run, setup, total_energy};
 
 const EDGE: f64 = 0.15;
 const MASS: f64 = 2.7;
@@ -53,7 +53,7 @@ fn a_rough_cube_tips_when_its_weight_passes_the_edge() {
     let tipping = ((0.5 - 0.05) / 0.5_f64).atan();
     for (share, tips) in [(0.98, false), (1.02, true)] {
         let mut rough = stack(1, 0.0);
-        rough.friction.unit_ground = 5.0.into();
+        rough.pairs[GROUND] = pair(GROUND, 5.0.into());
         let mut world = tilted_world(rough, share * tipping);
         run(&mut world, 1.0, 1e-4);
         let up = world.states()[0].rotation * DVec3::Z;
@@ -83,7 +83,8 @@ fn a_stack_of_cubes_stands_for_any_rotation() {
 #[test]
 fn a_heap_of_cubes_gains_no_energy() {
     let unit = ArmourUnit::cuboid(DVec3::splat(0.06), 0.05).unwrap();
-    let mut world = RigidWorld::new(RigidSetup { shape: BodyShape::from_unit(&unit, 0.5), ..heap(&unit) }).unwrap();
+    let mut world =
+        RigidWorld::new(RigidSetup { kinds: vec![kind(BodyShape::from_unit(&unit, 0.5))], ..heap(&unit) }).unwrap();
     let start = total_energy(&world);
     let (mut mechanical, mut highest) = (start, f64::MIN);
     for _ in 0..150 {

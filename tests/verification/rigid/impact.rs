@@ -1,10 +1,10 @@
 //! Impacts: Hertz's law, restitution, and elastic collisions without loss.
 
-use breakwater::rigid::{BodyState, Friction, Ground, Load, Material, RigidSetup, RigidWorld};
+use breakwater::rigid::{BodyState, Load, Material, RigidSetup, RigidWorld};
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 
-use super::{MORTAR, ball, heap, level, run, setup, tetrapod};
+use super::{GROUND, MORTAR, UNIT, ball, heap, pair, run, setup, tetrapod};
 
 #[test]
 fn a_sphere_on_a_plane_follows_the_law_of_hertz() {
@@ -60,10 +60,9 @@ fn restitution_equals_the_given_coefficient() {
 #[test]
 fn frictionless_elastic_bodies_keep_their_energy() {
     let elastic = Material { restitution: 1.0, young_modulus: 1e9, ..MORTAR };
-    let none = Friction { unit_unit: 0.0.into(), unit_ground: 0.0.into(), unit_wall: 0.0.into() };
-    let setup = RigidSetup { material: elastic, wall_material: elastic, friction: none, ..heap(&tetrapod()) };
-    let ground = Some(Ground { profile: level(), terrain: None, material: elastic, cover: None });
-    let mut world = RigidWorld::new(RigidSetup { ground, ..setup }).unwrap();
+    let pairs = [UNIT, GROUND].map(|other| pair(other, 0.0.into())).to_vec();
+    let setup = RigidSetup { materials: vec![elastic; 2], pairs, ..heap(&tetrapod()) };
+    let mut world = RigidWorld::new(setup).unwrap();
     let mechanical = |w: &RigidWorld| w.energy().kinetic + w.energy().potential + w.energy().elastic;
     let start = mechanical(&world);
     for _ in 0..10 {

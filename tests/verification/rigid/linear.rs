@@ -4,7 +4,7 @@ use breakwater::rigid::{BodyState, ContactModel, Material, Resistance, RigidSetu
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 
-use super::{MORTAR, ball, run, setup};
+use super::{GROUND, MORTAR, UNIT, ball, pair, run, setup};
 
 /// Returns the speed ratio after a head-on impact of two balls, and the duration of contact [s].
 fn impact(e: f64, stiffness: f64) -> [f64; 2] {
@@ -15,9 +15,8 @@ fn impact(e: f64, stiffness: f64) -> [f64; 2] {
     };
     let material = Material { restitution: e, ..MORTAR };
     let mut setup = setup(ball, vec![coming(-1.0), coming(1.0)], material, 0.3);
-    setup.friction.unit_unit = Resistance { stiffness: Some(stiffness), ..0.3.into() };
-    setup.friction.unit_wall = setup.friction.unit_unit;
-    setup.friction.unit_ground = setup.friction.unit_unit;
+    let resistance = Resistance { stiffness: Some(stiffness), ..0.3.into() };
+    setup.pairs = [UNIT, GROUND].map(|other| pair(other, resistance)).to_vec();
     let setup = RigidSetup { ground: None, gravity: DVec3::ZERO, model: ContactModel::Linear, ..setup };
     let mut world = RigidWorld::new(setup).unwrap();
     run(&mut world, 0.02, 1e-4);

@@ -5,6 +5,7 @@ mod creep;
 mod cubes;
 mod friction;
 mod impact;
+mod kinds;
 mod linear;
 mod pile;
 mod records;
@@ -18,7 +19,8 @@ mod world;
 use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::geometry::profile::Profile;
 use breakwater::rigid::{
-    BodyShape, BodyState, ContactModel, Friction, Ground, Load, Material, RigidSetup, RigidWorld, Sides,
+    Body, BodyKind, BodyShape, BodyState, ContactModel, Ground, Load, Material, MaterialPair, Resistance, RigidSetup,
+    RigidWorld, Sides,
 };
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
@@ -32,19 +34,38 @@ fn level() -> Profile {
     Profile::new(vec![[-5.0, 0.0], [5.0, 0.0]])
 }
 
+/// Number of the material of the units.
+const UNIT: usize = 0;
+/// Number of the material of ground and walls. Its elastic constants are those of the units, its friction differs.
+const GROUND: usize = 1;
+
+/// Returns the setup of bodies of one kind on level ground, where they have the coefficient `friction` [-].
 fn setup(shape: BodyShape, bodies: Vec<BodyState>, material: Material, friction: f64) -> RigidSetup {
     RigidSetup {
-        shape,
-        bodies,
-        material,
-        ground: Some(Ground { profile: level(), terrain: None, material, cover: None }),
+        kinds: vec![kind(shape)],
+        bodies: Body::of_first_kind(bodies),
+        materials: vec![material; 2],
+        pairs: vec![pair(UNIT, 0.65.into()), pair(GROUND, friction.into())],
+        ground: Some(ground(level())),
+        surfaces: Vec::new(),
         sides: Sides::Open,
         end_walls: None,
-        wall_material: material,
-        friction: Friction { unit_unit: 0.65.into(), unit_ground: friction.into(), unit_wall: friction.into() },
+        wall_material: GROUND,
         model: ContactModel::HertzMindlin,
         gravity: DVec3::NEG_Z * G,
     }
+}
+
+fn kind(shape: BodyShape) -> BodyKind {
+    BodyKind { shape, material: UNIT, is_fixed: false }
+}
+
+fn pair(other: usize, resistance: Resistance) -> MaterialPair {
+    MaterialPair { between: [UNIT, other], resistance }
+}
+
+fn ground(profile: Profile) -> Ground {
+    Ground { profile, material: GROUND, cover: None }
 }
 
 fn tetrapod() -> ArmourUnit {

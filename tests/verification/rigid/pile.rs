@@ -3,10 +3,10 @@
 use std::time::Instant;
 
 use breakwater::geometry::profile::Profile;
-use breakwater::rigid::{BodyShape, BodyState, Ground, Load, RigidSetup, RigidWorld, Sides};
+use breakwater::rigid::{BodyShape, BodyState, Load, RigidSetup, RigidWorld, Sides};
 use glam::{DQuat, DVec3};
 
-use super::{HEIGHT, MASS, MORTAR, setup, tetrapod};
+use super::{HEIGHT, MASS, MORTAR, ground, setup, tetrapod};
 
 /// Spacing of the initial lattice [m], so wide that Tetrapods of any orientation do not touch.
 const SPACING: f64 = 1.36 * HEIGHT;
@@ -26,7 +26,7 @@ fn lattice(count: usize, along: usize, across: usize) -> RigidSetup {
     let bodies = (0..count).map(body).collect();
     let profile = Profile::new(vec![[-1.0, 0.0], [0.0, 0.0], [length, length / 1.5], [length + 1.0, length / 1.5]]);
     RigidSetup {
-        ground: Some(Ground { profile, terrain: None, material: MORTAR, cover: None }),
+        ground: Some(ground(profile)),
         sides: Sides::Walls { width },
         end_walls: Some([0.0, length]),
         ..setup(BodyShape::from_unit(&tetrapod(), MASS), bodies, MORTAR, 0.65)

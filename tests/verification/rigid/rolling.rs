@@ -3,7 +3,7 @@
 use breakwater::rigid::{BodyState, Resistance, RigidWorld};
 use glam::{DQuat, DVec3};
 
-use super::{G, MORTAR, ball, run, setup};
+use super::{G, GROUND, MORTAR, ball, pair, run, setup};
 
 const RADIUS: f64 = 0.02;
 
@@ -11,7 +11,7 @@ const RADIUS: f64 = 0.02;
 fn at_rest(rolling: f64) -> RigidWorld {
     let body = BodyState::at_rest(DVec3::Z * (RADIUS - 1e-6), DQuat::IDENTITY);
     let mut setup = setup(ball(RADIUS, 2380.0), vec![body], MORTAR, 0.5);
-    setup.friction.unit_ground = Resistance { rolling, ..0.5.into() };
+    setup.pairs[GROUND] = pair(GROUND, Resistance { rolling, ..0.5.into() });
     let mut world = RigidWorld::new(setup).unwrap();
     run(&mut world, 0.2, 1e-4);
     world

@@ -2,12 +2,12 @@
 
 use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::geometry::profile::Profile;
-use breakwater::rigid::{BodyShape, BodyState, Ground, Load, RigidSetup, RigidWorld, Sides};
+use breakwater::rigid::{BodyShape, BodyState, Load, RigidSetup, RigidWorld, Sides};
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use super::{MASS, MORTAR, run, setup, standing, tetrapod, total_energy};
+use super::{MASS, MORTAR, ground, run, setup, standing, tetrapod, total_energy};
 
 /// Returns the smallest pitch of a row without overlap [m] by bisection.
 fn least_pitch(unit: &ArmourUnit, second_azimuth: f64) -> f64 {
@@ -97,7 +97,7 @@ fn a_unit_slides_over_the_lee_edge_and_comes_to_rest_below() {
     body.position.z += 0.12;
     body.velocity = DVec3::X * 1.2;
     let mut s = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.32);
-    s.ground = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR, cover: None });
+    s.ground = Some(ground(profile.clone()));
     let mut world = RigidWorld::new(s).unwrap();
     let before = total_energy(&world);
     run(&mut world, 3.0, 1e-4);
@@ -126,7 +126,7 @@ fn a_row_slides_over_the_mound_and_its_energy_balance_closes() {
         })
         .collect();
     let mut s = setup(BodyShape::from_unit(&unit, MASS), row, MORTAR, 0.32);
-    s.ground = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR, cover: None });
+    s.ground = Some(ground(profile.clone()));
     s.sides = Sides::Walls { width: 1.2 };
     let mut world = RigidWorld::new(s).unwrap();
     let start = total_energy(&world);

@@ -4,7 +4,7 @@ use breakwater::geometry::profile::Profile;
 use breakwater::rigid::{BodyShape, Cover, Ground, Resistance, RigidWorld};
 use glam::DVec3;
 
-use super::{G, MASS, MORTAR, run, setup, standing, tetrapod};
+use super::{G, GROUND, MASS, MORTAR, ground, pair, run, setup, standing, tetrapod};
 
 /// Creates a Tetrapod that settled on level ground, and tilts the ground to a slope [rad]. The azimuth turns a leg
 /// forward or backward; the unit slides along x.
@@ -12,7 +12,7 @@ fn tilted_world(azimuth: f64, resistance: Resistance, angle: f64) -> RigidWorld 
     let unit = tetrapod();
     let body = standing(&unit, 0.0, 0.0, azimuth);
     let mut setup = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.0);
-    setup.friction.unit_ground = resistance;
+    setup.pairs[GROUND] = pair(GROUND, resistance);
     let mut world = RigidWorld::new(setup).unwrap();
     run(&mut world, 0.3, 1e-4);
     // The tilt is slow: after a sudden tilt, the unit would oscillate on its tangential spring up to twice the load.
@@ -73,8 +73,10 @@ fn a_unit_that_slides_from_the_mound_to_the_bed_is_slowed_by_the_friction_of_eac
     body.velocity = DVec3::X * 1.5;
     let mut setup = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.5);
     let profile = Profile::new(vec![[-5.0, 0.0], [0.0, 0.0], [5.0, 0.0]]);
-    let cover = Some(Cover { x: [-5.0, 0.0], material: MORTAR, resistance: 0.2.into() });
-    setup.ground = Some(Ground { profile, terrain: None, material: MORTAR, cover });
+    let mound = setup.materials.len();
+    setup.materials.push(MORTAR);
+    setup.pairs.push(pair(mound, 0.2.into()));
+    setup.ground = Some(Ground { cover: Some(Cover { x: [-5.0, 0.0], material: mound }), ..ground(profile) });
     let mut world = RigidWorld::new(setup).unwrap();
     // Until 0.1 s, all feet are at x < 0; from 0.32 s to 0.4 s, they are at x > 0. At the start, the unit rocks.
     let mut deceleration = |start: f64, end: f64| {

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use breakwater::geometry::profile::Profile;
 use breakwater::geometry::terrain::Terrain;
-use breakwater::rigid::{BodyShape, BodyState, Ground, Load, RigidSetup, RigidWorld, Sides};
+use breakwater::rigid::{BodyShape, BodyState, Load, RigidSetup, RigidWorld, Sides, TriangleSurface};
 use glam::{DQuat, DVec3};
 
-use super::{HEIGHT, MASS, MORTAR, ball, run, setup, standing, tetrapod, total_energy};
+use super::{GROUND, HEIGHT, MASS, MORTAR, ball, ground, run, setup, standing, tetrapod, total_energy};
 
 /// Returns a bed far below the terrain.
 fn bed_far_below() -> Profile {
@@ -31,7 +31,8 @@ fn nodes(from: f64, to: f64, count: usize) -> Vec<f64> {
 
 fn on_terrain(setup: RigidSetup, terrain: Arc<Terrain>) -> RigidSetup {
     RigidSetup {
-        ground: Some(Ground { profile: bed_far_below(), terrain: Some(terrain), material: MORTAR, cover: None }),
+        ground: Some(ground(bed_far_below())),
+        surfaces: vec![TriangleSurface { terrain, material: GROUND }],
         ..setup
     }
 }
@@ -45,7 +46,7 @@ fn a_tetrapod_slides_over_a_terrain_edge_like_over_exact_planes() {
     body.position.z += 0.12;
     body.velocity = DVec3::X * 1.2;
     let base = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.32);
-    let planes = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR, cover: None });
+    let planes = Some(ground(profile.clone()));
     let x: Vec<f64> = corners.iter().map(|corner| corner[0]).collect();
     let surface = height_field(&x, &nodes(-0.5, 0.5, 4), |x, _| profile.z(x));
     let mut worlds =
@@ -75,8 +76,8 @@ fn a_ball_oscillates_in_a_terrain_trough_without_loss() {
     let start = DVec3::new(pendulum_length * angle.sin(), 0.0, hollow - pendulum_length * angle.cos());
     let base = setup(ball(radius, 2400.0), vec![BodyState::at_rest(start, DQuat::IDENTITY)], smooth, 0.0);
     let mut world = RigidWorld::new(RigidSetup {
-        ground: Some(Ground { profile: bed_far_below(), terrain: Some(surface), material: smooth, cover: None }),
-        material: smooth,
+        ground: Some(ground(bed_far_below())),
+        surfaces: vec![TriangleSurface { terrain: surface, material: GROUND }],
         ..base
     })
     .unwrap();

@@ -1,5 +1,8 @@
 // The film: its state, its controls, and the loop that draws it.
 
+// Returns the edges of the box of a mesh.
+const span = ({ low, high }) => low.map((value, axis) => high[axis] - value);
+
 class Film {
   constructor(head, bytes) {
     this.head = head;
@@ -21,11 +24,14 @@ class Film {
   }
 
   unpackedBodies(bodies) {
-    const mesh = this.drawing.mesh();
-    this.drawing.fill(mesh, integers(this.bytes, bodies.points), integers(this.bytes, bodies.triangles), null);
+    const meshes = bodies.meshes.map((shape) => {
+      const mesh = this.drawing.mesh();
+      this.drawing.fill(mesh, integers(this.bytes, shape.points), integers(this.bytes, shape.triangles), null);
+      return { mesh, low: shape.low, span: span(shape) };
+    });
     const values = bodies.fields.map((field) => numbers(this.bytes, field.values));
     const [position, turn] = [bodies.position, bodies.orientation].map((array) => numbers(this.bytes, array));
-    return { ...bodies, mesh, values, position, turn, field: 0, visible: true };
+    return { ...bodies, meshes, values, position, turn, field: 0, visible: true };
   }
 
   // True while a new load of the page would disturb the viewer.
@@ -95,25 +101,24 @@ class Film {
 
   // Returns the list of objects that the drawing shows.
   objects() {
-    const span = (item) => item.low.map((value, axis) => item.high[axis] - value);
     const objects = [];
     for (const series of this.series.filter((one) => one.visible)) {
       this.load(series);
       const colours = series.fields[series.field]?.colours;
       objects.push({ ...series, span: span(series), colours });
     }
-    if (this.bodies?.visible) objects.push(...this.bodyObjects(span(this.bodies)));
+    if (this.bodies?.visible) objects.push(...this.bodyObjects());
     return objects;
   }
 
-  bodyObjects(span) {
+  bodyObjects() {
     const { bodies } = this;
     const count = bodies.list.length;
     const before = Math.floor(this.at);
     const after = Math.min(before + 1, this.times.length - 1);
     const share = this.at - before;
     const field = bodies.fields[bodies.field];
-    return bodies.list.map(({ number }, index) => {
+    return bodies.list.map(({ number, mesh }, index) => {
       const between = (list, parts) => Array.from({ length: parts }, (_, k) => {
         const [a, b] = [before, after].map((frame) => list[(frame * count + index) * parts + k]);
         return a + share * (b - a);
@@ -124,7 +129,7 @@ class Film {
       const [value] = between(bodies.values[bodies.field], 1);
       const [low, high] = field.range;
       return {
-        mesh: bodies.mesh, low: bodies.low, span, body, number, opacity: 1,
+        ...bodies.meshes[mesh], body, number, opacity: 1,
         plain: number === this.chosen ? "#e69f00" : "#8a929a",
         colours: number === this.chosen ? [] : field.colours,
         share: Math.min(0.999, Math.max(0, (value - low) / (high - low || 1))),

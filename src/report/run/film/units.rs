@@ -4,6 +4,7 @@ use super::super::super::plot::short;
 use super::super::folder::RunFolder;
 use super::super::motion::UnitMotion;
 use super::super::water::round_up;
+use crate::output::UnitSurface;
 use crate::report::film::{Bodies, Body, Field, Mesh, NO_YES, WARM, bounds};
 
 /// Largest number of triangles of the shape; a shape with more is simplified.
@@ -13,16 +14,8 @@ const CELLS: f32 = 60.0;
 
 /// Returns the units at the times of the film [s]; `None` for a run without units, or without their shape.
 pub fn bodies(run: &RunFolder, times: &[f64]) -> Option<Bodies> {
-    let surface = run.surface.as_ref()?;
-    if run.motions.is_empty() {
+    if run.motions.is_empty() || run.surfaces.is_empty() {
         return None;
-    }
-    let points = surface.vertices_m.iter().map(|vertex| vertex.map(|c| c as f32)).collect();
-    let mut mesh = Mesh { points, triangles: surface.triangles.clone(), values: Vec::new() };
-    if mesh.triangles.len() > MOST_TRIANGLES {
-        let [low, high] = bounds(&mesh.points);
-        let longest = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f32::max);
-        mesh = mesh.clustered(longest / CELLS);
     }
     let (mut position, mut orientation) = (Vec::new(), Vec::new());
     for time in times {
@@ -34,12 +27,23 @@ pub fn bodies(run: &RunFolder, times: &[f64]) -> Option<Bodies> {
     }
     Some(Bodies {
         name: "Units",
-        mesh,
+        meshes: run.surfaces.iter().map(shape).collect(),
         position,
         orientation: continuous(orientation, run.motions.len()),
         fields: fields(run, times),
         list: run.motions.iter().map(|motion| body(run, motion.unit)).collect(),
     })
+}
+
+fn shape(surface: &UnitSurface) -> Mesh {
+    let points = surface.vertices_m.iter().map(|vertex| vertex.map(|c| c as f32)).collect();
+    let mesh = Mesh { points, triangles: surface.triangles.clone(), values: Vec::new() };
+    if mesh.triangles.len() <= MOST_TRIANGLES {
+        return mesh;
+    }
+    let [low, high] = bounds(&mesh.points);
+    let longest = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f32::max);
+    mesh.clustered(longest / CELLS)
 }
 
 /// Chooses the sign of each quaternion so that it is near to that of the same unit in the frame before: both signs are
@@ -113,8 +117,10 @@ fn property(
 }
 
 fn body(run: &RunFolder, number: u32) -> Body {
+    let group = run.group_of(number);
+    let mesh = group.min(run.surfaces.len().saturating_sub(1));
     let Some(unit) = run.summary.units.iter().find(|unit| unit.unit == number) else {
-        return Body { number, facts: Vec::new() };
+        return Body { number, mesh, facts: Vec::new() };
     };
     let mut facts = vec![
         ("displacement", format!("{} m", short(unit.displacement_m, 3))),
@@ -127,7 +133,10 @@ fn body(run: &RunFolder, number: u32) -> Body {
     ];
     let broken = run.breakage.as_ref().and_then(|b| b.units.iter().find(|u| u.unit == number as usize)?.broken);
     facts.extend(broken.map(|broken| ("broken", if broken { "yes" } else { "no" }.to_owned())));
-    Body { number, facts }
+    if let Some(group) = run.summary.groups.get(group).filter(|_| run.summary.groups.len() > 1) {
+        facts.insert(0, ("group", group.name.clone()));
+    }
+    Body { number, mesh, facts }
 }
 
 #[cfg(test)]

@@ -48,11 +48,11 @@ impl Simulation {
             energy.potential += potential;
             energy.internal += internal;
         }
-        if let (Some(units), Some(of_case)) = (&self.units, &self.case.units) {
-            // In two dimensions, the water is as thick as one slice of a unit. Therefore use the mass of one slice.
-            let mass = of_case.mass / of_case.slices;
-            let inertia = units.shape.inertia(mass);
-            for state in units.states() {
+        if let Some(units) = &self.units {
+            for (group, state) in units.group_of_each().zip(units.states()) {
+                // In two dimensions, the water is as thick as one slice of a unit. Therefore use the mass of one slice.
+                let mass = group.mass / group.slices;
+                let inertia = group.shape.unit().inertia(mass);
                 let spin = state.rotation.inverse() * state.angular_velocity;
                 energy.units_kinetic += 0.5 * mass * state.velocity.length_squared() + 0.5 * spin.dot(inertia * spin);
                 energy.units_potential += mass * parameters.gravity * state.position.z;

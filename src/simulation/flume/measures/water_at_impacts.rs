@@ -1,24 +1,40 @@
 //! Water loads on the units at the force peaks of their impacts.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    ops::Range,
+};
 
 use crate::{
     output::{FluidAtPeak, PressurePoint},
-    rigid::{Load, RigidWorld},
+    rigid::{ContactEvent, Load, RigidWorld},
     sph::{particles::boundary::Boundary, terms::equation_of_state::Tait},
 };
 
-/// Water loads at the force peaks of the hardest contacts of each unit; the key is the number of the contact.
+/// Water loads at the force peaks of the hardest contacts of each unit of the first group; the key is the number of the
+/// contact.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct WaterAtImpacts(pub BTreeMap<u64, FluidAtPeak>);
 
+/// The units of a time step.
+pub struct RecordedUnits<'a> {
+    /// Their solver.
+    pub world: &'a RigidWorld,
+    /// Water load on each unit.
+    pub loads: &'a [Load],
+    /// Indices of the units of the first group.
+    pub first_group: Range<usize>,
+}
+
 impl WaterAtImpacts {
-    /// Records the water `loads` of a time step for each of the hardest contacts whose force peak is in this time step.
+    /// Records the water loads of a time step for each of the hardest contacts whose force peak is in this time step.
     /// The time step began at `since` [s], in the time of the rigid-body solver. Removes contacts that are neither
     /// active nor among the hardest of their unit.
-    pub fn note(&mut self, world: &RigidWorld, since: f64, loads: &[Load], boundary: &Boundary, tait: &Tait) {
+    pub fn note(&mut self, units: &RecordedUnits, since: f64, boundary: &Boundary, tait: &Tait) {
+        let RecordedUnits { world, loads, first_group } = units;
         let mut noted = false;
-        for event in world.impacts_with_peak_after(since) {
+        let is_recorded = |event: &&ContactEvent| first_group.contains(&(event.body as usize));
+        for event in world.impacts_with_peak_after(since).filter(is_recorded) {
             let unit = event.body as usize;
             let densities = &boundary.density[boundary.units()[unit].clone()];
             let pressure = densities.iter().map(|density| tait.pressure(*density) as f32).collect();
@@ -32,8 +48,8 @@ impl WaterAtImpacts {
     }
 }
 
-/// Returns the boundary particles of a unit, at which water pressures are recorded.
+/// Returns the boundary particles of a unit of the first group, at which water pressures are recorded.
 pub fn pressure_places(boundary: &Boundary) -> Vec<PressurePoint> {
     let place = |(particle, to_surface)| PressurePoint { particle, to_surface };
-    boundary.positions_in_unit().map(place).collect()
+    boundary.positions_in_first_unit().map(place).collect()
 }

@@ -68,9 +68,9 @@ impl Recorder {
         }
         let mut profile = CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?;
         profile.append_rows(case.flume.profile.points())?;
-        if let (Some(units), Some(of_case)) = (&simulation.units, &case.units) {
-            UnitSurface::of(units.shape.solid()).write(&dir.join(UnitSurface::FILE))?;
-            for (name, content) in of_case.files() {
+        if let Some(units) = &case.units {
+            UnitSurface::write_groups(units.groups.iter().map(|group| group.shape.unit().solid()), dir)?;
+            for (name, content) in units.files() {
                 write_atomically(&dir.join(name), content)?;
             }
         }
@@ -267,7 +267,7 @@ impl Recorder {
 
     fn record_surfaces(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
         let Some(units) = &simulation.units else { return Ok(()) };
-        let frame = Frame::of_surfaces(units.shape.solid(), units.states(), simulation.flume_time());
+        let frame = Frame::of_surfaces(&units.solids(), simulation.flume_time());
         self.writer.give(move |files| files.append_surfaces(&frame))
     }
 

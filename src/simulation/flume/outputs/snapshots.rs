@@ -163,10 +163,10 @@ impl Frame {
     }
 
     /// Copies the surfaces of the units, with the velocity of each point and the number of its unit.
-    pub fn of_surfaces(solid: &Solid, states: &[BodyState], time: f64) -> Self {
+    pub fn of_surfaces(units: &[(&Solid, &BodyState)], time: f64) -> Self {
         let (mut points, mut triangles) = (Vec::new(), Vec::new());
         let (mut velocity, mut number) = (Vec::new(), Vec::new());
-        for (unit, state) in states.iter().enumerate() {
+        for (unit, (solid, state)) in units.iter().enumerate() {
             let first = points.len() as u32;
             triangles.extend(solid.triangles().iter().map(|corners| corners.map(|corner| first + corner)));
             for &vertex in solid.vertices() {

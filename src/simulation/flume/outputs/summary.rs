@@ -4,10 +4,10 @@ use std::path::Path;
 
 use crate::simulation::flume::Simulation;
 use crate::{
-    case::{Case, Quantity, Sides, Wave, Wavemaker},
+    case::{Case, Quantity, Sides, UnitGroup, Wave, Wavemaker},
     output::{
-        ContactSummary, EnergySummary, Execution, GaugeSummary, OutputError, ParticleCounts, PressureSummary, Stopped,
-        Summary, Table, TimeStepSummary, UnitSummary, WaveSummary, columns,
+        ContactSummary, EnergySummary, Execution, GaugeSummary, GroupSummary, OutputError, ParticleCounts,
+        PressureSummary, Stopped, Summary, Table, TimeStepSummary, UnitSummary, WaveSummary, columns,
     },
     waves::theory::solitary::PistonTheory,
 };
@@ -67,7 +67,7 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
         ..Summary::default()
     };
     if let Some(units) = &case.units {
-        summary.set_units(units_of(simulation, units.damage_distance), units.damage_distance);
+        summary.set_groups(units.groups.iter().map(group_of).collect(), units_of(simulation));
     }
     Ok(summary)
 }
@@ -103,10 +103,21 @@ fn wave(case: &Case) -> Option<WaveSummary> {
     Some(WaveSummary { kind, theory, height_m: case.wave.height()?, period_s: case.wave.period() })
 }
 
-fn units_of(simulation: &Simulation, damage_distance: f64) -> Vec<UnitSummary> {
+fn group_of(group: &UnitGroup) -> GroupSummary {
+    GroupSummary {
+        name: group.name.clone(),
+        units: [group.members.start as u32 + 1, group.members.end as u32],
+        fixed: group.is_fixed,
+        damage_distance_m: group.damage_distance,
+        ..GroupSummary::default()
+    }
+}
+
+fn units_of(simulation: &Simulation) -> Vec<UnitSummary> {
     let Some(units) = &simulation.units else { return Vec::new() };
     let statistics = &simulation.statistics;
-    let summary_of = |(k, (now, start)): (usize, (&crate::rigid::BodyState, &crate::rigid::BodyState))| {
+    let summary_of = |(k, group): (usize, &UnitGroup)| {
+        let (now, start) = (&units.states()[k], &units.start[k]);
         let turned = (now.rotation * start.rotation.inverse()).normalize();
         let angle = 2.0 * turned.xyz().length().atan2(turned.w.abs());
         let (from, to) = (start.position.to_array(), now.position.to_array());
@@ -115,10 +126,10 @@ fn units_of(simulation: &Simulation, damage_distance: f64) -> Vec<UnitSummary> {
             peak_contact_force_n: statistics.peak_contact_force[k],
             bed_contacts: statistics.contacts[k][0],
             unit_contacts: statistics.contacts[k][1],
-            ..UnitSummary::moved(k as u32 + 1, from, to, angle.to_degrees(), damage_distance)
+            ..UnitSummary::moved(k as u32 + 1, from, to, angle.to_degrees(), group.damage_distance)
         }
     };
-    units.states().iter().zip(&units.start).enumerate().map(summary_of).collect()
+    units.group_of_each().enumerate().map(summary_of).collect()
 }
 
 /// Returns the highest elevation at each elevation gauge and the highest pressures at each pressure gauge, read from
