@@ -7,8 +7,8 @@ use super::search::Placements;
 use super::world::{NO_PAIR_LIST, RigidWorld};
 
 impl RigidWorld {
-    /// Largest overlap [m] that a new body of the given kind at this position would have with bodies, ground and walls. 0 if the position
-    /// is free; infinite if the overlap exceeds the range of the contact law.
+    /// Largest overlap [m] that a new body of the given kind at this position would have with bodies, ground and walls.
+    /// 0 if the position is free; infinite if the overlap exceeds the range of the contact law.
     pub fn overlap_at(&self, kind: usize, position: DVec3, rotation: DQuat) -> f64 {
         let number = self.position.len();
         let mut kinds = self.kind.clone();

@@ -20,8 +20,8 @@ pub enum Feature {
     /// The bed profile: `place` is 2 k for strip k (a plane segment, counted from 0 at the seaward end), and 2 k + 1
     /// for the convex corner after strip k.
     Ground { place: u32, end: u16 },
-    /// Triangle surfaces: `place` is the number of the triangle, ridge or corner; the numbers of a surface follow those of
-    /// the surface before.
+    /// A triangle surface: `place` is the number of the triangle, ridge or corner. The numbers of a surface follow those
+    /// of the surface before.
     Terrain { place: u32, end: u16 },
     /// A wall: 0 at y = 0, 1 at y = width, 2 seaward, 3 shoreward.
     Wall { wall: u8, end: u16 },

@@ -69,7 +69,7 @@ fn images(obstacle: &AxisBox, site: &Site) -> Vec<AxisBox> {
         Sides::Periodic if obstacle.open[1] == [true; 2] => {
             [-1.0, 0.0, 1.0].map(|image| obstacle.shifted(image * across)).to_vec()
         }
-        // Units that are wider than the flume also touch it.
+        // In two dimensions, units are wider than the flume, which is one particle wide.
         Sides::Periodic | Sides::TwoDimensional => {
             let beyond = ACROSS * across.max(DVec3::Y * obstacle.edges().max_element());
             vec![AxisBox { low: obstacle.low - beyond, high: obstacle.high + beyond, open: obstacle.open }]
@@ -77,7 +77,8 @@ fn images(obstacle: &AxisBox, site: &Site) -> Vec<AxisBox> {
     }
 }
 
-/// Distance by which an obstacle across a periodic flume continues beyond its sides, divided by the width [-].
+/// Distance by which an obstacle across a periodic flume continues beyond its sides, divided by the width of the flume
+/// or, if it is longer, the longest edge of the obstacle [-].
 const ACROSS: f64 = 10.0;
 
 fn terrain(bounds: &AxisBox) -> Terrain {

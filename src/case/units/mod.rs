@@ -168,7 +168,7 @@ pub(super) fn validate(file: &UnitGroupsFile, around: &Surroundings, check: &mut
     // All groups are validated, so that the user sees all errors at once.
     let validated: Vec<Option<UnitGroup>> = groups.iter().enumerate().map(&mut validate_one).collect();
     let groups: Vec<UnitGroup> = validated.into_iter().collect::<Option<_>>()?;
-    validate_names(&groups, check);
+    validate_names(file, &groups, check);
     if placements.len() > MAX_UNITS as usize {
         let advice = "remove some units";
         check.reject("units", format!("{} units", placements.len()), format!("at most {MAX_UNITS} units"), advice);
@@ -189,12 +189,12 @@ pub(super) fn with_ground(
     Some(Units { groups, placements, ground_material, mound_material, pairs })
 }
 
-/// Refuses two groups with the same name.
-fn validate_names(groups: &[UnitGroup], check: &mut Checker) {
+/// Refuses groups without a name, and two groups with the same name.
+fn validate_names(file: &UnitGroupsFile, groups: &[UnitGroup], check: &mut Checker) {
     for (index, UnitGroup { name, .. }) in groups.iter().enumerate() {
         if name.trim().is_empty() || groups[..index].iter().any(|other| other.name == *name) {
-            let (path, value) = (format!("units[{index}].name"), format!("{name:?}"));
-            check.reject(&path, value, "a name that no other group has", "rename the group");
+            let path = format!("{}.name", file.path(index));
+            check.reject(&path, format!("{name:?}"), "a name that no other group has", "rename the group");
         }
     }
 }

@@ -7,12 +7,12 @@ use std::{
 
 use crate::{
     output::{FluidAtPeak, PressurePoint},
-    rigid::{ContactEvent, Load, RigidWorld},
+    rigid::{Load, RigidWorld},
     sph::{particles::boundary::Boundary, terms::equation_of_state::Tait},
 };
 
-/// Water loads at the force peaks of the hardest contacts of each unit of the first group; the key is the number of the
-/// contact.
+/// Water loads at the force peaks of the hardest contacts of each unit; the key is the number of the contact. Pressures
+/// are recorded for the units of the first group, which have the same boundary particles; those of others are NaN.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct WaterAtImpacts(pub BTreeMap<u64, FluidAtPeak>);
 
@@ -33,11 +33,14 @@ impl WaterAtImpacts {
     pub fn note(&mut self, units: &RecordedUnits, since: f64, boundary: &Boundary, tait: &Tait) {
         let RecordedUnits { world, loads, first_group } = units;
         let mut noted = false;
-        let is_recorded = |event: &&ContactEvent| first_group.contains(&(event.body as usize));
-        for event in world.impacts_with_peak_after(since).filter(is_recorded) {
+        for event in world.impacts_with_peak_after(since) {
             let unit = event.body as usize;
-            let densities = &boundary.density[boundary.units()[unit].clone()];
-            let pressure = densities.iter().map(|density| tait.pressure(*density) as f32).collect();
+            let pressure = if first_group.contains(&unit) {
+                let densities = &boundary.density[boundary.units()[unit].clone()];
+                densities.iter().map(|density| tait.pressure(*density) as f32).collect()
+            } else {
+                vec![f32::NAN; boundary.units()[first_group.start].len()]
+            };
             self.0.insert(event.number, FluidAtPeak { load: loads[unit], pressure });
             noted = true;
         }
