@@ -192,6 +192,11 @@ class Run(Folder):
         return self.summary.get("damage_ratio")
 
     @property
+    def groups(self) -> pd.DataFrame:
+        """Damage ratio, displaced and rotated units, N_od and settlement of each group of units, indexed by its name."""
+        return pd.DataFrame(self.summary.get("groups", [])).set_index("name")
+
+    @property
     def water_times_s(self) -> np.ndarray:
         """Times at which the water particles are recorded [s]."""
         return self._snapshots("fluid.vtkhdf", "output.fluid_interval_s").times_s()

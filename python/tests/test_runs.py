@@ -88,6 +88,7 @@ def test_tables_have_their_index_and_units_in_their_names(run):
     assert len(run.contacts) >= 1 and len(run.impacts) >= 1
     assert {"peak_force_n", "point_x_m", "impulse_z_n_s", "rotation_w"} <= set(run.impacts.columns)
     assert run.damage_ratio == 0.0
+    assert list(run.groups.index) == ["units"] and run.groups.loc["units", "displaced"] == 0
     assert run.displacement.index.tolist() == [1] and run.displacement[1] < 0.01
     with pytest.raises(FileNotFoundError, match="has not written"):
         run.table("waves")

@@ -27,6 +27,15 @@ pub struct Armour {
     pub seed: u64,
 }
 
+/// Armour layers of one group of units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layers {
+    /// Group of the units, an index into the groups of [`LayerJob::units`].
+    pub group: usize,
+    /// Extent and packing of the layers.
+    pub armour: Armour,
+}
+
 /// Armour layers that `breakwater place` has to place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerJob {
@@ -34,10 +43,10 @@ pub struct LayerJob {
     pub title: String,
     /// Ground and boundaries of the area in which units stand.
     pub site: Site,
-    /// The units, not yet placed.
+    /// The units. The groups of [`Self::layers`] have no members yet; the others are in their places.
     pub units: Units,
-    /// Extent and packing of the armour layers.
-    pub armour: Armour,
+    /// The layers, in the order in which they are placed.
+    pub layers: Vec<Layers>,
     /// Materials; other structs contain indices into this list.
     pub materials: Vec<Material>,
     /// Contact between units, and between units and the bed.
@@ -66,28 +75,28 @@ impl LayerJob {
         Ok(job)
     }
 
-    /// Returns the points (x, z) of the slope under the layers: both ends and the corner points between them [m].
-    pub fn slope(&self) -> Vec<[f64; 2]> {
-        let [x0, x1] = self.armour.x;
+    /// Returns the points (x, z) of the slope under layers: both ends and the corner points between them [m].
+    pub fn slope(&self, layers: &Layers) -> Vec<[f64; 2]> {
+        let [x0, x1] = layers.armour.x;
         let inner = self.site.profile.points().iter().copied().filter(|p| p[0] > x0 && p[0] < x1);
         let end = |x: f64| [x, self.site.profile.z(x)];
         [end(x0)].into_iter().chain(inner).chain([end(x1)]).collect()
     }
 
-    /// Returns the group of units to place.
-    pub fn group(&self) -> &UnitGroup {
-        &self.units.groups[0]
+    /// Returns the group of units of layers.
+    pub fn group(&self, layers: &Layers) -> &UnitGroup {
+        &self.units.groups[layers.group]
     }
 
-    /// Returns the slope area under the layers, divided by D_n^2 [-], with the nominal diameter D_n of a unit.
-    pub fn area(&self) -> f64 {
-        let length: f64 = self.slope().windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum();
-        length * self.site.width / self.group().shape.nominal_diameter().powi(2)
+    /// Returns the slope area under layers, divided by D_n^2 [-], with the nominal diameter D_n of a unit.
+    pub fn area(&self, layers: &Layers) -> f64 {
+        let length: f64 = self.slope(layers).windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum();
+        length * self.site.width / self.group(layers).shape.nominal_diameter().powi(2)
     }
 
-    /// Returns the number of units in all layers.
-    pub fn count(&self) -> usize {
-        (self.armour.packing_density * self.area()).round() as usize
+    /// Returns the number of units in layers.
+    pub fn count(&self, layers: &Layers) -> usize {
+        (layers.armour.packing_density * self.area(layers)).round() as usize
     }
 }
 
@@ -118,29 +127,40 @@ fn validate_job(
     gravity: f64,
     check: &mut Checker,
 ) -> Option<LayerJob> {
-    let [group] = file.groups() else {
-        let given = format!("{} groups", file.groups().len());
-        check.reject("units", given, "one group", "place each group in a case of its own");
+    let before = check.count();
+    let (mut groups, mut placements, mut layers) = (Vec::new(), Vec::new(), Vec::new());
+    for (index, group) in file.groups().iter().enumerate() {
+        check.in_section(&file.path(index), |check| {
+            let unplaced = units::validate_unplaced(group, file, index, around, check);
+            match &group.armour {
+                Some(armour) => {
+                    let armour = around.site.and_then(|site| validate(armour, site, check));
+                    layers.extend(armour.map(|armour| Layers { group: index, armour }));
+                    groups.extend(unplaced);
+                }
+                None => groups.extend(units::placed(group, unplaced, &mut placements, around, check)),
+            }
+        });
+    }
+    if check.count() == before && layers.is_empty() {
+        let advice = "write \"armour\": { \"x_m\": [from, to], \"packing_density\": 1.04 }";
+        check.reject(&format!("{}.armour", file.path(0)), "(missing)", "the armour layers to place", advice);
+    }
+    if check.count() > before {
         return None;
-    };
-    check.in_section(&file.path(0), |check| {
-        let unplaced = units::validate_unplaced(group, 0, around, check);
-        let Some(armour) = &group.armour else {
-            let advice = "write \"armour\": { \"x_m\": [from, to], \"packing_density\": 1.04 }";
-            check.reject(".armour", "(missing)", "the armour layers to place", advice);
-            return None;
-        };
-        let armour = validate(armour, around.site?, check)?;
-        let (title, site, materials) = (title.to_owned(), around.site?.clone(), around.materials.list.clone());
-        let units = units::with_ground(vec![unplaced?], Vec::new(), around, check)?;
-        let job = LayerJob { title, site, units, armour, materials, contact: around.contact, gravity };
-        let count = job.count();
+    }
+    let (title, site, materials) = (title.to_owned(), around.site?.clone(), around.materials.list.clone());
+    let units = units::with_ground(groups, placements, around, check)?;
+    let job = LayerJob { title, site, units, layers, materials, contact: around.contact, gravity };
+    for layers in &job.layers {
+        let count = job.count(layers);
         if !(1..=MAX_UNITS as usize).contains(&count) {
+            let path = format!("{}.armour", file.path(layers.group));
             let advice = "change the length of the layers or the packing density";
-            check.reject(".armour", format!("{count} units"), format!("1 to {MAX_UNITS} units"), advice);
+            check.reject(&path, format!("{count} units"), format!("1 to {MAX_UNITS} units"), advice);
         }
-        Some(job)
-    })
+    }
+    (check.count() == before).then_some(job)
 }
 
 fn validate(file: &ArmourFile, site: &Site, check: &mut Checker) -> Option<Armour> {

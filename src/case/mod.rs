@@ -34,8 +34,8 @@ mod wave;
 pub use breakage::{BreakageSettings, Selection};
 pub use dry_test::{DryOutput, DryTestCase, DryTestKind};
 pub use file::{
-    ArmourOrientation, Boundary, ContactLawName, DensityDiffusion, FluidField, ImpactMeasure, PlacementFile, PoseFile,
-    RerunMethod, Sides, SolitaryTheory, Viscosity, WallSlip,
+    ArmourOrientation, Boundary, ContactLawName, DamageMeasure, DensityDiffusion, FluidField, ImpactMeasure,
+    PlacedGroupFile, PlacementFile, PoseFile, RerunMethod, Sides, SolitaryTheory, Viscosity, WallSlip,
 };
 pub use flume::bed::{Flume, Mound};
 pub use flume::domain::{Domain, Start, Water};
@@ -48,7 +48,7 @@ pub use flume_case::estimate::Estimate;
 pub use flume_case::numerics::{Fluid, Numerics};
 pub use fracture::{FractureCase, Landmark, Plane};
 pub use input_file::InputFile;
-pub use layer_job::{Armour, LayerJob};
+pub use layer_job::{Armour, LayerJob, Layers};
 pub use output::files::Output;
 pub use output::gauges::{Gauge, Motion, Quantity};
 pub use output::stop::{AtRest, Stop};
@@ -61,6 +61,7 @@ pub use reading::schema::{
 pub use reading::template::template_text;
 pub use reference::{Reference, ReferenceWave, ReferenceWaveKind, Resolution, Series, SeriesRole, mean};
 pub use units::contact::Contact;
+pub use units::damage::DamageLimits;
 pub use units::materials::{FrictionPair, Material};
 pub use units::shape::{UnitKind, UnitShape};
 pub use units::{UnitGroup, UnitPose, Units};

@@ -8,7 +8,7 @@ use super::{CommandError, input::read};
 use crate::{
     case::{InputKind, LayerJob},
     output::write_atomically,
-    simulation::armour_layer::{PlacementError, place},
+    simulation::armour_layer::{ArmourLayers, PlacedGroup, PlacementError, place},
 };
 
 /// `place` warns if the overlap of two bodies at the end, divided by the height of a unit [-], exceeds this value.
@@ -41,39 +41,61 @@ impl PlaceArguments {
             let what = "exists already; add --overwrite to replace it, or choose another file with --out FILE";
             return Err(CommandError::refused(format!("{}: {what}", out.display())));
         }
-        let (count, quiet) = (job.count(), self.quiet);
+        let counts: Vec<usize> = job.layers.iter().map(|layers| job.count(layers)).collect();
+        let (count, quiet) = (counts.iter().sum::<usize>(), self.quiet);
         if !quiet {
-            let (layers, density) = (job.armour.layers, job.armour.packing_density);
-            eprintln!("{}\n  {count} units in {layers} layers, packing density {density}", job.title);
+            eprintln!("{}", job.title);
+            for (layers, count) in job.layers.iter().zip(&counts) {
+                let (name, armour) = (&job.group(layers).name, &layers.armour);
+                let (number, density) = (armour.layers, armour.packing_density);
+                eprintln!("  {name}: {count} units in {number} layers, packing density {density}");
+            }
         }
         let tell = |placed: usize, time: f64| {
             if !quiet && (placed.is_multiple_of(25) || placed == count) {
                 eprintln!("  {placed} of {count} units placed, {time:.2} s simulated");
             }
         };
-        let placement = place(&job, tell).map_err(|error| match error {
+        let placed = place(&job, tell).map_err(|error| match error {
             PlacementError::NoRoom { .. } => CommandError::refused(format!("{}: {error}", self.case.display())),
             PlacementError::Rigid(_) => CommandError::failed(error),
         })?;
-        let mut text = serde_json::to_string_pretty(&placement.file(&job.title)).map_err(CommandError::failed)?;
+        let file = placed.file(&job.title, job.units.groups.len());
+        let mut text = serde_json::to_string_pretty(&file).map_err(CommandError::failed)?;
         text.push('\n');
         write_atomically(&out, text.as_bytes()).map_err(CommandError::failed)?;
-        println!("{} units settled in {:.2} s of simulated time", placement.units.len(), placement.time);
-        println!("  packing density {:.3}, {} units rolled off", placement.packing_density, placement.rolled_off);
-        println!(
-            "  {} contacts, deepest overlap {:.3} % of the height; fastest unit {:.1e} m/s, kinetic energy {:.1e} \
-             times the released potential energy",
-            placement.contacts,
-            100.0 * placement.deepest_overlap,
-            placement.fastest,
-            placement.unrest
-        );
-        if placement.deepest_overlap > GOOD_OVERLAP {
-            eprintln!("warning: units overlap by more than 1 % of their height; use a stiffer material");
+        tell_result(&placed, &out);
+        match placed.groups.iter().find(|group| !group.is_complete()) {
+            None => Ok(()),
+            Some(PlacedGroup { name, packing_density, wanted, rolled_off, .. }) => Err(CommandError::failed(format!(
+                "{}: {name}: the packing density is {packing_density:.3} instead of {wanted:.3}, and {rolled_off} units \
+                 rolled off; support the toe of the layers with fixed units or an obstacle, make the slope flatter, or ask \
+                 for a smaller packing density. The placement is in {}",
+                self.case.display(),
+                out.display()
+            ))),
         }
-        println!("{}: add \"placement_file\": {:?} to `units` of the case", out.display(), name_of(&out));
-        Ok(())
     }
+}
+
+fn tell_result(placed: &ArmourLayers, out: &Path) {
+    for PlacedGroup { name, units, packing_density, rolled_off, .. } in &placed.groups {
+        let count = units.len();
+        println!("{name}: {count} units, packing density {packing_density:.3}, {rolled_off} units rolled off");
+    }
+    println!(
+        "  settled in {:.2} s of simulated time; {} contacts, deepest overlap {:.3} % of the height; fastest unit {:.1e} \
+         m/s, kinetic energy {:.1e} times the released potential energy",
+        placed.time,
+        placed.contacts,
+        100.0 * placed.deepest_overlap,
+        placed.fastest,
+        placed.unrest
+    );
+    if placed.deepest_overlap > GOOD_OVERLAP {
+        eprintln!("warning: units overlap by more than 1 % of their height; use a stiffer material");
+    }
+    println!("{}: add \"placement_file\": {:?} to the placed groups of `units`", out.display(), name_of(out));
 }
 
 fn name_of(path: &Path) -> String {

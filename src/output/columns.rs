@@ -174,6 +174,11 @@ pub fn velocity(name: &str) -> [String; 3] {
     ["u", "v", "w"].map(|c| format!("{name}_{c}_m_s"))
 }
 
+/// Returns the column names of the force [N] and the moment [N m] at the gauge `name`.
+pub fn force(name: &str) -> [String; 6] {
+    ["fx_n", "fy_n", "fz_n", "mx_n_m", "my_n_m", "mz_n_m"].map(|component| format!("{name}_{component}"))
+}
+
 /// Returns the row of `contacts.csv` for an event. `offset` [s] is added to the event's times to give flume times.
 pub fn contact_row(event: &crate::rigid::ContactEvent, offset: f64) -> [f64; 15] {
     let ([x, y, z], [bx, by, bz]) = (event.point, event.point_in_body);

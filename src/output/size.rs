@@ -91,11 +91,12 @@ fn surfaces_bytes(case: &Case, snapshots: f64) -> f64 {
 }
 
 fn table_bytes(case: &Case, rows: f64) -> f64 {
-    let gauge_columns = |quantity: Quantity| match quantity {
+    let gauge_columns = |quantity: &Quantity| match quantity {
         Quantity::Elevation | Quantity::Pressure => 2.0,
         Quantity::Velocity => 3.0,
+        Quantity::Force(_) => 6.0,
     };
-    let gauges = case.gauges.iter().filter(|gauge| gauge.in_domain).map(|gauge| gauge_columns(gauge.quantity));
+    let gauges = case.gauges.iter().filter(|gauge| gauge.in_domain).map(|gauge| gauge_columns(&gauge.quantity));
     let units = case.units.as_ref().map_or(0, Units::count) as f64;
     let columns = 1.0 + gauges.sum::<f64>() + ENERGY_COLUMNS + DIAGNOSTICS_COLUMNS + UNIT_COLUMNS * units;
     BYTES_PER_NUMBER * rows * columns

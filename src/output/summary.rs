@@ -235,8 +235,7 @@ impl Summary {
     /// Sets the results of the units, and computes damage ratio and mean displacement of all units and of each group.
     pub fn set_groups(&mut self, mut groups: Vec<GroupSummary>, units: Vec<UnitSummary>) {
         for group in &mut groups {
-            let [ratio, mean] = averages(&units, |unit| group.contains(unit)).unwrap_or_default();
-            (group.damage_ratio, group.mean_displacement_m) = (ratio, mean);
+            group.count(&units, self.domain_width_m);
         }
         let moves = |unit: u32| groups.iter().any(|group| !group.fixed && group.contains(unit));
         let all = averages(&units, moves);

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::case::{DamageLimits, DamageMeasure};
+
 /// Results for a group of equal units. Fixed units have no damage.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct GroupSummary {
@@ -12,18 +14,52 @@ pub struct GroupSummary {
     /// True if the units cannot move.
     #[serde(default)]
     pub fixed: bool,
-    /// Displacement above which a unit counts as damaged [m].
+    /// Nominal diameter D_n = V^(1/3) of a unit of the volume V [m].
+    #[serde(default)]
+    pub nominal_diameter_m: f64,
+    /// Way that counts for the damage.
+    #[serde(default)]
+    pub damage_measure: DamageMeasure,
+    /// A unit counts as damaged if this way is longer [m].
     pub damage_distance_m: f64,
-    /// Share of the units that moved further than `damage_distance_m` [-].
+    /// A unit counts as rotated if its rotation is larger [deg].
+    #[serde(default)]
+    pub rotation_limit_deg: f64,
+    /// Share of damaged units [-].
     pub damage_ratio: f64,
     /// Mean displacement of the units [m].
     pub mean_displacement_m: f64,
+    /// Number of displaced units: their centres moved further than D_n in space.
+    #[serde(default)]
+    pub displaced: u32,
+    /// Damage number N_od [-]: number of displaced units in a strip of the width D_n (Van der Meer 1988).
+    #[serde(default)]
+    pub n_od: f64,
+    /// Number of rotated units.
+    #[serde(default)]
+    pub rotated: u32,
+    /// Mean settlement of the units [m]: the fall of their centres.
+    #[serde(default)]
+    pub mean_settlement_m: f64,
 }
 
 impl GroupSummary {
     /// Returns true if the unit with this number belongs to the group.
     pub fn contains(&self, unit: u32) -> bool {
         (self.units[0]..=self.units[1]).contains(&unit)
+    }
+
+    /// Computes the results of the group from those of all units, in a flume of the given width [m].
+    pub(super) fn count(&mut self, units: &[UnitSummary], width_m: f64) {
+        let members: Vec<&UnitSummary> = units.iter().filter(|unit| self.contains(unit.unit)).collect();
+        let [ratio, mean] = averages(units, |unit| self.contains(unit)).unwrap_or_default();
+        (self.damage_ratio, self.mean_displacement_m) = (ratio, mean);
+        let number = |is_counted: &dyn Fn(&UnitSummary) -> bool| members.iter().filter(|unit| is_counted(unit)).count();
+        self.displaced = number(&|unit| unit.spatial_displacement_m > self.nominal_diameter_m) as u32;
+        self.rotated = number(&|unit| unit.rotation_deg > self.rotation_limit_deg) as u32;
+        self.n_od = f64::from(self.displaced) * self.nominal_diameter_m / width_m.max(f64::MIN_POSITIVE);
+        let settled: f64 = members.iter().map(|unit| unit.start_m[2] - unit.end_m[2]).sum();
+        self.mean_settlement_m = settled / members.len().max(1) as f64;
     }
 }
 
@@ -34,7 +70,10 @@ pub struct UnitSummary {
     pub unit: u32,
     /// Horizontal distance between first and last position of the centre of mass [m].
     pub displacement_m: f64,
-    /// True if the displacement exceeds the damage distance.
+    /// Distance between first and last position of the centre of mass in space [m].
+    #[serde(default)]
+    pub spatial_displacement_m: f64,
+    /// True if the unit moved further than the damage distance of its group.
     pub damaged: bool,
     /// Direction of the displacement in plan view [deg]: 0 is shoreward, positive is towards larger y. 0 without
     /// displacement.
@@ -58,14 +97,21 @@ pub struct UnitSummary {
 }
 
 impl UnitSummary {
-    /// Computes displacement, direction and damage from first and last position [m]. Sets forces and contacts to zero.
-    pub fn moved(unit: u32, start_m: [f64; 3], end_m: [f64; 3], rotation_deg: f64, damage_distance_m: f64) -> Self {
-        let (dx, dy) = (end_m[0] - start_m[0], end_m[1] - start_m[1]);
-        let displacement_m = dx.hypot(dy);
+    /// Computes displacements, direction and damage from first and last position [m]. Sets forces and contacts to zero.
+    pub fn moved(
+        unit: u32,
+        start_m: [f64; 3],
+        end_m: [f64; 3],
+        rotation_deg: f64,
+        limits: impl Into<DamageLimits>,
+    ) -> Self {
+        let [dx, dy, dz] = std::array::from_fn(|axis| end_m[axis] - start_m[axis]);
+        let displacement_m = f64::hypot(dx, dy);
         Self {
             unit,
             displacement_m,
-            damaged: displacement_m > damage_distance_m,
+            spatial_displacement_m: displacement_m.hypot(dz),
+            damaged: limits.into().is_damaged(start_m, end_m),
             direction_deg: if displacement_m > 0.0 { dy.atan2(dx).to_degrees() } else { 0.0 },
             start_m,
             end_m,
@@ -83,4 +129,38 @@ pub(super) fn averages(units: &[UnitSummary], is_in: impl Fn(u32) -> bool) -> Op
     let damaged = members.iter().filter(|unit| unit.damaged).count() as f64;
     let displacement = members.iter().map(|unit| unit.displacement_m).sum::<f64>();
     (!members.is_empty()).then(|| [damaged / count, displacement / count])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_of_displacements_gives_its_damage_numbers() {
+        let mut armour = GroupSummary {
+            units: [2, 5],
+            nominal_diameter_m: 0.05,
+            damage_measure: DamageMeasure::Spatial,
+            damage_distance_m: 0.03,
+            rotation_limit_deg: 15.0,
+            ..GroupSummary::default()
+        };
+        let limits = DamageLimits { measure: DamageMeasure::Spatial, distance: 0.03, rotation_deg: 15.0 };
+        let unit = |number, end, turned| UnitSummary::moved(number, [0.0, 0.0, 0.2], end, turned, limits);
+        let units = [
+            // Not of the group.
+            unit(1, [1.0, 0.0, 0.2], 90.0),
+            unit(2, [0.0, 0.0, 0.2], 14.0),
+            // Falls by less than D_n, and by more than D_n.
+            unit(3, [0.0, 0.0, 0.16], 16.0),
+            unit(4, [0.03, 0.0, 0.12], 0.0),
+            unit(5, [0.06, 0.08, 0.2], 40.0),
+        ];
+        armour.count(&units, 0.4);
+        assert_eq!((armour.displaced, armour.rotated, armour.damage_ratio), (2, 2, 0.75));
+        // Two displaced units in a flume of 0.4 m, which has eight strips of 0.05 m.
+        assert!((armour.n_od - 0.25).abs() < 1e-12);
+        assert!((armour.mean_displacement_m - 0.0325).abs() < 1e-12);
+        assert!((armour.mean_settlement_m - 0.03).abs() < 1e-12);
+    }
 }

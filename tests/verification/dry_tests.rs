@@ -75,22 +75,23 @@ fn small_layer() -> Value {
 fn a_placed_layer_rests_and_can_be_run() {
     let job = LayerJob::from_str(&small_layer().to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
     let placed = place(&job, |_, _| ()).unwrap();
+    let [layer] = &placed.groups[..] else { panic!("one group") };
     println!(
         "{} units, packing density {:.3}, {} rolled off, overlap {:.2e} H, kinetic energy {:.1e} of the potential energy, {} contacts",
-        placed.units.len(),
-        placed.packing_density,
-        placed.rolled_off,
+        layer.units.len(),
+        layer.packing_density,
+        layer.rolled_off,
         placed.deepest_overlap,
         placed.unrest,
         placed.contacts
     );
-    assert_eq!(placed.units.len(), job.count());
+    assert!(layer.is_complete() && layer.units.len() - layer.rolled_off == job.count(&job.layers[0]));
     // Limits: overlap below 1 % of the height of a unit, kinetic energy below 1e-6 of the potential energy.
     assert!(placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
     // The layer from the placement file stays at rest. While the tangential springs form again, units move by about the
     // overlap of the contacts, at most some thousandths of the height. The limit is half of the allowed overlap.
     let mut case = small_layer();
-    let file = placed.file("layer");
+    let file = placed.file("layer", 1);
     case["units"]["poses"] = serde_json::to_value(&file.poses).unwrap();
     let mut run = DryTest::new(dry_case(&case)).unwrap();
     rayon::scope(|_| (0..200).for_each(|_| run.advance(1.0).unwrap()));
@@ -107,7 +108,7 @@ fn a_layer_is_the_same_for_any_number_of_threads() {
     let job = LayerJob::from_str(&case.to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
     let layer_with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| place(&job, |_, _| ()).unwrap().units)
+        pool.install(|| place(&job, |_, _| ()).unwrap().groups[0].units.clone())
     };
     assert_eq!(layer_with(1), layer_with(2));
 }

@@ -31,8 +31,9 @@ pub use fracture_places::{LandmarkFile, SectionFile};
 pub use groups::UnitGroupsFile;
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Scheme, SchemeDefaults, Viscosity, WallSlip};
 pub use objects::{
-    ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,
-    Orientation, PlacementFile, PointFile, PoseFile, ScatterFile, Shape, StlFile, UnitsFile,
+    ArmourFile, ArmourOrientation, ContactFile, ContactLawName, DamageMeasure, ElevationFile, ForceFile, FrictionFile,
+    GaugeFile, MaterialFile, Orientation, PlacedGroupFile, PlacementFile, PointFile, PoseFile, ScatterFile, Shape,
+    StlFile, UnitsFile,
 };
 pub use output::{AtRestFile, FluidField, OutputFile, StopFile};
 pub use reference::{ReferenceFile, ReferenceWaveFile, ReferenceWaveKind, SeriesFile, SeriesRole};

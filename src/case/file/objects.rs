@@ -66,9 +66,26 @@ pub struct UnitsFile {
     /// Rotation of the units about the vertical axis, for a row and for `centres_m`.
     #[serde(default)]
     pub orientation: Orientation,
-    /// A unit counts as damaged if its displacement is larger than this distance [m]. Default: the height of the unit.
+    /// A unit counts as damaged if it moves further than this distance [m]. Default: the nominal diameter D_n of a unit.
     #[serde(default)]
     pub damage_distance_m: Option<f64>,
+    /// Way that counts for the damage. Default: `spatial`; `horizontal` if `damage_distance_m` is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damage_measure: Option<DamageMeasure>,
+    /// A unit counts as rotated if it rotates by more than this angle [degrees]. Default: 15.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotation_limit_deg: Option<f64>,
+}
+
+/// Way of a unit that counts for its damage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DamageMeasure {
+    /// Distance between the first and the last position of the centre in plan (Mitsui et al. 2023).
+    #[default]
+    Horizontal,
+    /// Distance between the first and the last position of the centre in space.
+    Spatial,
 }
 
 fn is_false(value: &bool) -> bool {
@@ -150,6 +167,22 @@ pub struct PlacementFile {
     /// Packing density of the placed layers [-]: number of units in all layers per slope area of D_n^2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub packing_density: Option<f64>,
+    /// Pose of each unit, if the case has one group.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub poses: Vec<PoseFile>,
+    /// The placed groups, if the case has several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<PlacedGroupFile>,
+}
+
+/// Poses of a group of units in a placement file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlacedGroupFile {
+    /// Name of the group in the case.
+    pub name: String,
+    /// Packing density of its layers [-].
+    pub packing_density: f64,
     /// Pose of each unit.
     pub poses: Vec<PoseFile>,
 }
@@ -298,7 +331,7 @@ impl ContactLawName {
     }
 }
 
-/// A gauge: a point at which elevation, pressure or velocity of the water is measured.
+/// A gauge: a point at which elevation, pressure or velocity of the water is measured, or the force on a group of units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum GaugeFile {
@@ -308,6 +341,21 @@ pub enum GaugeFile {
     Pressure(PointFile),
     /// Velocity of the water [m/s].
     Velocity(PointFile),
+    /// Force [N] and moment [N m] of the water on a group of units.
+    Force(ForceFile),
+}
+
+/// A gauge that measures the force of the water on a group of units, which may be fixed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ForceFile {
+    /// Name in tables and charts.
+    pub name: String,
+    /// Name of the group.
+    pub on: String,
+    /// Point [x, y, z] about which the moment acts [m]. Default: the mean of the centres of the units at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about_m: Option<[f64; 3]>,
 }
 
 /// A gauge that measures the elevation of the free surface.

@@ -132,8 +132,10 @@ impl Sections<'_> {
 
     fn gauges(&self, wavemaker: Wavemaker, units: Option<&Units>, check: &mut Checker) -> Vec<Gauge> {
         let reach = gauges::Reach::of(&self.file.wave, wavemaker);
-        let count = units.map_or(0, |units| units.placements.len());
-        gauges::validate(&self.file.gauges, self.flume.as_ref(), self.domain.as_ref(), count, reach, check)
+        if self.file.units.is_none() {
+            gauges::refuse_forces(&self.file.gauges, check);
+        }
+        gauges::validate(&self.file.gauges, self.flume.as_ref(), self.domain.as_ref(), units, reach, check)
     }
 
     fn reference(&self, check: &mut Checker) -> Option<Reference> {

@@ -1,9 +1,14 @@
 //! The validated gauges.
 
-use crate::case::file::{GaugeFile, PointFile, Sides, WaveFile};
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::case::file::{ForceFile, GaugeFile, PointFile, Sides, WaveFile};
 use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
 use crate::case::reading::check::{Checker, as_text};
+use crate::case::units::Units;
 use crate::case::wave::wavemaker::Wavemaker;
 
 /// Largest number of gauges in a case.
@@ -18,7 +23,8 @@ pub struct Gauge {
     pub name: String,
     /// Measured quantity.
     pub quantity: Quantity,
-    /// Initial position [x, y, z] [m]; z of an elevation gauge is the still water level.
+    /// Initial position [x, y, z] [m]; z of an elevation gauge is the still water level. For a force, the point about
+    /// which its moment acts.
     pub at: [f64; 3],
     /// Motion of the gauge.
     pub motion: Motion,
@@ -56,7 +62,7 @@ impl Gauge {
 }
 
 /// Quantity that a gauge measures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Quantity {
     /// Elevation of the free surface above the still water level [m].
     Elevation,
@@ -64,6 +70,8 @@ pub enum Quantity {
     Pressure,
     /// Velocity [m/s].
     Velocity,
+    /// Force [N] and moment [N m] on the units with these indices.
+    Force(Range<usize>),
 }
 
 /// Region in which elevation gauges are allowed.
@@ -93,7 +101,7 @@ pub fn validate(
     file: &[GaugeFile],
     flume: Option<&Flume>,
     domain: Option<&Domain>,
-    units: usize,
+    units: Option<&Units>,
     reach: Reach,
     check: &mut Checker,
 ) -> Vec<Gauge> {
@@ -116,10 +124,15 @@ pub fn validate(
                 validate_point(&path, point, flume, domain, check);
                 let pressure = matches!(gauge, GaugeFile::Pressure(_));
                 let quantity = if pressure { Quantity::Pressure } else { Quantity::Velocity };
-                (quantity, point.at_m, validate_motion(&path, point, units, check))
+                let count = units.map_or(0, Units::count);
+                (quantity, point.at_m, validate_motion(&path, point, count, check))
+            }
+            GaugeFile::Force(force) => {
+                let Some((members, at)) = validate_force(&path, force, units, check) else { continue };
+                (Quantity::Force(members), at, Motion::Fixed)
             }
         };
-        let in_domain = at[0] >= domain.x[0] && at[0] <= domain.x[1];
+        let in_domain = matches!(quantity, Quantity::Force(_)) || (at[0] >= domain.x[0] && at[0] <= domain.x[1]);
         gauges.push(Gauge { name: gauge_name(gauge).to_owned(), quantity, at, motion, in_domain });
     }
     gauges
@@ -129,6 +142,7 @@ fn gauge_name(gauge: &GaugeFile) -> &str {
     match gauge {
         GaugeFile::Elevation(elevation) => &elevation.name,
         GaugeFile::Pressure(point) | GaugeFile::Velocity(point) => &point.name,
+        GaugeFile::Force(force) => &force.name,
     }
 }
 
@@ -182,6 +196,40 @@ fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain,
             "there is no water inside an obstacle: move the gauge to its face",
         );
     }
+}
+
+/// Refuses gauges of forces in a case without units.
+pub fn refuse_forces(file: &[GaugeFile], check: &mut Checker) {
+    for (index, gauge) in file.iter().enumerate().filter(|(_, gauge)| matches!(gauge, GaugeFile::Force(_))) {
+        let given = format!("\"force\" ({})", gauge_name(gauge));
+        let advice = "add `units`, fixed or free, or remove the gauge";
+        check.reject(&format!("gauges[{index}].kind"), given, "another kind in a case without units", advice);
+    }
+}
+
+/// Returns the indices of the units on which a gauge measures the force, and the point about which the moment acts [m].
+fn validate_force(
+    path: &str,
+    file: &ForceFile,
+    units: Option<&Units>,
+    check: &mut Checker,
+) -> Option<(Range<usize>, [f64; 3])> {
+    // Without valid units, their own errors suffice.
+    let units = units?;
+    let Some(group) = units.groups.iter().find(|group| group.name == file.on) else {
+        let names: Vec<String> = units.groups.iter().map(|group| format!("{:?}", group.name)).collect();
+        let advice = "write the `name` of a group of units";
+        check.reject(&format!("{path}.on"), format!("{:?}", file.on), format!("one of {}", names.join(", ")), advice);
+        return None;
+    };
+    if let Some(axis) = file.about_m.and_then(|about| about.iter().position(|value| !value.is_finite())) {
+        check.reject(&format!("{path}.about_m[{axis}]"), "not finite", "a finite number", "write a point in metres");
+        return None;
+    }
+    let members = group.members.clone();
+    let centres: DVec3 = units.placements[members.clone()].iter().map(|pose| pose.centre).sum();
+    let middle = (centres / members.len().max(1) as f64).to_array();
+    Some((members, file.about_m.unwrap_or(middle)))
 }
 
 fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Checker) -> Motion {

@@ -6,10 +6,12 @@
 //! | [`pose`] | pose of a unit: position and rotation |
 //! | [`row`], [`centres`], [`poses`] | the three ways to place units |
 //! | [`planar`] | checks for units in two dimensions |
+//! | [`damage`] | limits above which a unit counts as damaged or rotated |
 //! | [`materials`], [`contact`], [`resistance`] | materials, contact settings, friction and restitution |
 
 mod centres;
 pub mod contact;
+pub mod damage;
 pub mod materials;
 mod planar;
 mod pose;
@@ -24,12 +26,13 @@ use std::ops::Range;
 use glam::DVec3;
 
 use self::contact::Contact;
+use self::damage::DamageLimits;
 use self::materials::Materials;
 pub use self::pose::UnitPose;
 use self::shape::{UnitKind, UnitShape};
 use super::file::{Orientation, PoseFile, Sides, UnitGroupsFile, UnitsFile};
 use super::flume::site::Site;
-use super::reading::check::{Checker, as_text, more_than};
+use super::reading::check::{Checker, as_text};
 use crate::geometry::axis_box::AxisBox;
 use crate::rigid::MaterialPair;
 
@@ -69,8 +72,8 @@ pub struct UnitGroup {
     pub is_fixed: bool,
     /// In two dimensions, width of a unit / thickness of the particle layer [-]; 1 in three dimensions.
     pub slices: f64,
-    /// A unit counts as damaged if its displacement is larger than this distance [m].
-    pub damage_distance: f64,
+    /// Limits above which a unit counts as damaged or rotated.
+    pub limits: DamageLimits,
     /// Material of the units, an index into `Case::materials`.
     pub material: usize,
 }
@@ -150,23 +153,14 @@ pub(super) fn validate(file: &UnitGroupsFile, around: &Surroundings, check: &mut
         return None;
     }
     let mut placements = Vec::new();
-    let mut validate_one = |(index, group): (usize, &UnitsFile)| {
-        check.in_section(&file.path(index), |check| {
-            let unplaced = validate_unplaced(group, index, around, check);
-            let poses = place(group, unplaced.as_ref().map(|group| &group.shape), around, check);
-            let (unplaced, poses) = (unplaced?, poses?);
-            let slices = around.site.map_or(1.0, |site| planar::slices(&unplaced.shape, site));
-            let name = match file {
-                UnitGroupsFile::One(_) => "units".to_owned(),
-                UnitGroupsFile::Several(_) => format!("group {}", index + 1),
-            };
-            let members = placements.len()..placements.len() + poses.len();
-            placements.extend(poses);
-            Some(UnitGroup { name: group.name.clone().unwrap_or(name), members, slices, ..unplaced })
-        })
-    };
     // All groups are validated, so that the user sees all errors at once.
-    let validated: Vec<Option<UnitGroup>> = groups.iter().enumerate().map(&mut validate_one).collect();
+    let mut validated = Vec::new();
+    for (index, group) in groups.iter().enumerate() {
+        validated.push(check.in_section(&file.path(index), |check| {
+            let unplaced = validate_unplaced(group, file, index, around, check);
+            placed(group, unplaced, &mut placements, around, check)
+        }));
+    }
     let groups: Vec<UnitGroup> = validated.into_iter().collect::<Option<_>>()?;
     validate_names(file, &groups, check);
     if placements.len() > MAX_UNITS as usize {
@@ -189,6 +183,22 @@ pub(super) fn with_ground(
     Some(Units { groups, placements, ground_material, mound_material, pairs })
 }
 
+/// Places the units of a group and appends their poses to `placements`. Returns the group with its members.
+pub(super) fn placed(
+    file: &UnitsFile,
+    unplaced: Option<UnitGroup>,
+    placements: &mut Vec<UnitPose>,
+    around: &Surroundings,
+    check: &mut Checker,
+) -> Option<UnitGroup> {
+    let poses = place(file, unplaced.as_ref(), around, check);
+    let (unplaced, poses) = (unplaced?, poses?);
+    let slices = around.site.map_or(1.0, |site| planar::slices(&unplaced.shape, site));
+    let members = placements.len()..placements.len() + poses.len();
+    placements.extend(poses);
+    Some(UnitGroup { members, slices, ..unplaced })
+}
+
 /// Refuses groups without a name, and two groups with the same name.
 fn validate_names(file: &UnitGroupsFile, groups: &[UnitGroup], check: &mut Checker) {
     for (index, UnitGroup { name, .. }) in groups.iter().enumerate() {
@@ -199,10 +209,11 @@ fn validate_names(file: &UnitGroupsFile, groups: &[UnitGroup], check: &mut Check
     }
 }
 
-/// Validates a group of units without their positions and their friction; `index` is its index in the file. In the
-/// result, `members` is empty.
+/// Validates the group with this index in `all`, without its positions and its friction. In the result, `members` is
+/// empty.
 pub(super) fn validate_unplaced(
     file: &UnitsFile,
+    all: &UnitGroupsFile,
     index: usize,
     around: &Surroundings,
     check: &mut Checker,
@@ -213,9 +224,7 @@ pub(super) fn validate_unplaced(
     if let Some(shape) = &shape {
         shape::validate_mass(file.mass_kg, shape, around.water.as_ref().map(|water| water.rho0), check);
     }
-    if let Some(distance) = file.damage_distance_m {
-        check.number(".damage_distance_m", distance, more_than(0.0).up_to(1000.0), "m", "the unit's height is usual");
-    }
+    let limits = shape.as_ref().map(|shape| damage::validate(file, shape, check));
     let material = materials::find(&around.materials.list, &file.material, ".material", check);
     if !around.ground_named {
         check.reject(
@@ -230,12 +239,15 @@ pub(super) fn validate_unplaced(
     }
     let shape = shape?;
     Some(UnitGroup {
-        name: String::new(),
+        name: file.name.clone().unwrap_or_else(|| match all {
+            UnitGroupsFile::One(_) => "units".to_owned(),
+            UnitGroupsFile::Several(_) => format!("group {}", index + 1),
+        }),
         mass: file.mass_kg,
         members: 0..0,
         is_fixed: file.fixed,
         slices: 1.0,
-        damage_distance: file.damage_distance_m.unwrap_or(shape.height()),
+        limits: limits?,
         shape,
         material: material?,
     })
@@ -245,10 +257,11 @@ pub(super) fn validate_unplaced(
 /// prevent the placement.
 fn place(
     file: &UnitsFile,
-    shape: Option<&UnitShape>,
+    group: Option<&UnitGroup>,
     around: &Surroundings,
     check: &mut Checker,
 ) -> Option<Vec<UnitPose>> {
+    let shape = group.map(|group| &group.shape);
     let posed = file.poses.is_some() || file.placement_file.is_some();
     if file.armour.is_some() && !posed {
         check.reject(
@@ -279,7 +292,7 @@ fn place(
     let placements = match (row, &file.centres_m) {
         (Some(row), _) => row::place(&row, shape, site, check),
         (None, Some(centres)) if !posed => centres::place(centres, file, shape, site, check),
-        _ => poses::place(file, around.name, shape, site, check)?,
+        _ => poses::place(file, group.map_or("", |group| &group.name), around.name, shape, site, check)?,
     };
     validate_above_terrain(&placements, site, check);
     validate_outside_obstacles(&placements, shape, site, check);

@@ -16,10 +16,11 @@ use crate::case::reading::document::Document;
 /// then normalized.
 const ROUNDING: f64 = 1e-3;
 
-/// Places the units at the poses in the case file, or in the placement file that it names. The path of the placement
-/// file is relative to the folder of the case file.
+/// Places the units of a group at the poses in the case file, or in the placement file that it names. The path of the
+/// placement file is relative to the folder of the case file.
 pub fn place(
     file: &UnitsFile,
+    group: &str,
     case_name: &str,
     shape: &UnitShape,
     site: &Site,
@@ -39,7 +40,7 @@ pub fn place(
     }
     let (poses, path) = match (&file.poses, &file.placement_file) {
         (Some(poses), None) => (poses.clone(), ".poses"),
-        (None, Some(path)) => (read(path, case_name, check)?, ".placement_file"),
+        (None, Some(path)) => (read(path, group, case_name, check)?, ".placement_file"),
         _ => {
             let advice = "keep one of the two keys";
             check.reject(".poses", "[...]", "left out with `placement_file`", advice);
@@ -77,10 +78,20 @@ fn refuse_crowd(placements: &[UnitPose], path: &str, shape: &UnitShape, check: &
     }
 }
 
-fn read(path: &str, case_name: &str, check: &mut Checker) -> Option<Vec<PoseFile>> {
+fn read(path: &str, group: &str, case_name: &str, check: &mut Checker) -> Option<Vec<PoseFile>> {
     let path = Path::new(case_name).parent().unwrap_or(Path::new("")).join(path);
     match Document::read(&path).and_then(|document| document.parse::<PlacementFile>()) {
-        Ok(file) => Some(file.poses),
+        Ok(PlacementFile { groups, poses, .. }) if groups.is_empty() => Some(poses),
+        Ok(PlacementFile { groups, .. }) => {
+            let names: Vec<String> = groups.iter().map(|group| format!("{:?}", group.name)).collect();
+            let found = groups.into_iter().find(|one| one.name == group).map(|one| one.poses);
+            if found.is_none() {
+                let shown = format!("{:?}", path.display().to_string());
+                let allowed = format!("a placement file with the group {group:?} (it has {})", names.join(", "));
+                check.reject(".placement_file", shown, allowed, "place the units again, or rename the group");
+            }
+            found
+        }
         Err(reason) => {
             let advice = "`breakwater place CASE` writes a placement file";
             let shown = format!("{:?}", path.display().to_string());

@@ -86,8 +86,9 @@ pub(super) fn after_dry_test(
     control: &Control,
 ) -> Result<(), CommandError> {
     let Some(settings) = &case.breakage else { return Ok(()) };
-    let limit = case.units.groups[0].damage_distance;
-    let moved = |unit: &DryUnit| Moved { displacement: unit.moved_m, damaged: unit.moved_m > limit };
+    let limits = case.units.groups[0].limits;
+    let moved =
+        |unit: &DryUnit| Moved { displacement: unit.moved_m, damaged: limits.is_damaged(unit.start_m, unit.end_m) };
     let moved: Vec<Moved> = summary.units.iter().map(moved).collect();
     analyse(&Model::of_dry(case), settings, &moved, dir, control)
 }

@@ -184,6 +184,12 @@ fn other_gauges(table: Option<&Table>) -> Vec<String> {
             let mean = column_line(Some(table), &format!("{gauge}_p_mean_pa"), "mean since the last row", 1, false);
             let lines = column_line(Some(table), column, "at the time", 0, false).into_iter().chain(mean).collect();
             charts.push(figure(line_chart(gauge, "pressure [Pa]", lines, HALF), gauge));
+        } else if let Some(gauge) = column.strip_suffix("_fx_n") {
+            let lines =
+                [("along the flume", "fx", 0), ("upwards", "fz", 2)].into_iter().filter_map(|(name, part, colour)| {
+                    column_line(Some(table), &format!("{gauge}_{part}_n"), name, colour, false)
+                });
+            charts.push(figure(line_chart(gauge, "force of the water [N]", lines.collect(), HALF), gauge));
         } else if let Some(gauge) = column.strip_suffix("_u_m_s") {
             let lines = [("u", 0), ("v", 2), ("w", 1)].into_iter().filter_map(|(component, colour)| {
                 column_line(Some(table), &format!("{gauge}_{component}_m_s"), component, colour, false)

@@ -9,6 +9,7 @@ use super::{
     film, views,
 };
 use crate::{
+    case::DamageMeasure,
     output::{GroupSummary, Stopped, Summary, UnitSummary, WaveSummary},
     report::{
         film::Scene,
@@ -108,13 +109,10 @@ fn displacement(run: &RunFolder) -> String {
     if run.summary.units.is_empty() {
         return String::new();
     }
-    let limit = match run.summary.groups.len() {
-        0 | 1 => format!("{} m", short(run.summary.damage_distance_m.unwrap_or(0.0), 3)),
-        _ => "the damage distance of its group".to_owned(),
-    };
     let mut content = format!(
-        "<p>Displacement is the horizontal distance between initial and final position of the centre of mass. A unit \
-         counts as damaged if its displacement exceeds {limit}.</p>\n{}<figure>{}</figure>\n",
+        "<p>Displacement is the horizontal distance between initial and final position of the centre of mass. {}</p>\n\
+         {}<figure>{}</figure>\n",
+        damage_in_words(&run.summary),
         group_table(&run.summary),
         charts::displacements(run)
     );
@@ -124,28 +122,61 @@ fn displacement(run: &RunFolder) -> String {
     section("Displacement", &(content + &unit_table(&run.summary)))
 }
 
-/// Table of the groups; empty for one group.
+/// Says when a unit counts as damaged.
+fn damage_in_words(summary: &Summary) -> String {
+    let [group] = &summary.groups[..] else {
+        return match summary.groups.len() {
+            0 => format!("A unit counts as damaged above {} m.", short(summary.damage_distance_m.unwrap_or(0.0), 3)),
+            _ => "A unit counts as damaged if it moves further than the damage distance of its group.".to_owned(),
+        };
+    };
+    let distance = short(group.damage_distance_m, 3);
+    match group.damage_measure {
+        DamageMeasure::Horizontal => format!("A unit counts as damaged if its displacement exceeds {distance} m."),
+        DamageMeasure::Spatial => {
+            format!("A unit counts as damaged if its centre moves by more than {distance} m in space.")
+        }
+    }
+}
+
+/// Table of the groups. It is left out for one group whose damage is defined as in the experiments of Mitsui et al.
 fn group_table(summary: &Summary) -> String {
-    if summary.groups.len() < 2 {
+    if let [] | [GroupSummary { damage_measure: DamageMeasure::Horizontal, .. }] = summary.groups[..] {
         return String::new();
     }
     let row = |group: &GroupSummary| {
         let [first, last] = group.units;
         let results = match group.fixed {
-            true => "<td colspan=\"3\">fixed</td>".to_owned(),
-            false => format!(
-                "<td>{}</td><td>{} %</td><td>{:.3}</td>",
-                short(group.damage_distance_m, 3),
-                short(100.0 * group.damage_ratio, 0),
-                group.mean_displacement_m
-            ),
+            true => "<td colspan=\"8\">fixed</td>".to_owned(),
+            false => {
+                let way = match group.damage_measure {
+                    DamageMeasure::Horizontal => "in plan",
+                    DamageMeasure::Spatial => "in space",
+                };
+                format!(
+                    "<td>{} {way}</td><td>{} %</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.3}</td><td>{:.3}</td>",
+                    short(group.damage_distance_m, 3),
+                    short(100.0 * group.damage_ratio, 0),
+                    short(group.nominal_diameter_m, 3),
+                    group.displaced,
+                    short(group.n_od, 2),
+                    group.rotated,
+                    group.mean_displacement_m,
+                    group.mean_settlement_m
+                )
+            }
         };
         format!("<tr><td>{}</td><td>{first} to {last}</td>{results}</tr>\n", escape(&group.name))
     };
     let rows: String = summary.groups.iter().map(row).collect();
+    let limits = summary.groups.iter().find(|group| !group.fixed).map_or(0.0, |group| group.rotation_limit_deg);
     format!(
         "<div class=\"scroll\"><table>\n<thead><tr><th>Group</th><th>Units</th><th>Damage distance [m]</th>\
-         <th>Damaged</th><th>Mean displacement [m]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+         <th>Damaged</th><th>D<sub>n</sub> [m]</th><th>Displaced</th><th>N<sub>od</sub></th><th>Rotated</th>\
+         <th>Mean displace&shy;ment [m]</th><th>Mean settlement [m]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n\
+         <figcaption>Displaced: the centre moved further than D<sub>n</sub> in space. N<sub>od</sub>: displaced units in a \
+         strip of the width D<sub>n</sub>. Rotated: by more than {} degrees. Settlement: fall of the centre.</figcaption>\n",
+        short(limits, 0)
     )
 }
 

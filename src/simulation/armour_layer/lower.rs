@@ -11,11 +11,18 @@ const STEP: f64 = 0.05;
 /// the unit.
 const BISECTIONS: u32 = 12;
 
-/// Lowers a unit from `from` [m] until it touches the ground or another unit, and returns its state there, at rest.
-/// Returns `None` if the unit already overlaps a body at `from`, or if it touches nothing down to one unit height below
-/// the level `ground` [m].
-pub(super) fn lowered(world: &RigidWorld, from: DVec3, rotation: DQuat, ground: f64, height: f64) -> Option<BodyState> {
-    let is_free = |z: f64| world.overlap_at(0, DVec3::new(from.x, from.y, z), rotation) == 0.0;
+/// Lowers a unit of the given kind from `from` [m] until it touches the ground or another unit, and returns its state
+/// there, at rest. Returns `None` if the unit already overlaps a body at `from`, or if it touches nothing down to one
+/// unit height below the level `ground` [m].
+pub(super) fn lowered(
+    world: &RigidWorld,
+    kind: usize,
+    from: DVec3,
+    rotation: DQuat,
+    ground: f64,
+    height: f64,
+) -> Option<BodyState> {
+    let is_free = |z: f64| world.overlap_at(kind, DVec3::new(from.x, from.y, z), rotation) == 0.0;
     if !is_free(from.z) {
         return None;
     }

@@ -2,22 +2,32 @@
 //!
 //! Like a crane, the program places the units layer by layer, and row by row from the toe upwards. The number of units
 //! is N = phi A / D_n^2, with packing density phi, area A of the slope, and nominal diameter D_n of a unit. The units
-//! are lowered at the nodes of a staggered grid; contact forces determine where they come to rest.
+//! are lowered at the nodes of a staggered grid; contact forces determine where they come to rest. Units that leave the
+//! slope are replaced where the layers are thinnest. Groups without layers are in their places from the start.
 
 mod lower;
 mod slots;
+
+use std::ops::Range;
 
 use glam::DVec3;
 use thiserror::Error;
 
 use crate::{
-    case::{LayerJob, PlacementFile, PoseFile, Site},
-    rigid::{BodyState, Load, RigidError, RigidSetup, RigidWorld},
+    case::{LayerJob, Layers, PlacedGroupFile, PlacementFile, PoseFile},
+    random::SplitMix64,
+    rigid::{BodyState, Load, RigidError, RigidWorld},
     simulation::bodies::rigid_setup,
 };
 use lower::lowered;
-use slots::{Slot, rows};
+use slots::{Slot, rows, thinnest};
 
+/// Largest deviation of the packing density from that of the job, divided by it [-].
+const TOLERANCE: f64 = 0.03;
+/// Number of times that units which left the slope are replaced.
+const MOST_ROUNDS: usize = 5;
+/// Changes the seed of the layers for the rotations of replaced units.
+const REPLACEMENTS: u64 = 0x5eed;
 /// Time between two checks of the unit speeds [s].
 const CHECK_INTERVAL: f64 = 1e-3;
 /// Shortest and longest settling time of a row [s].
@@ -50,16 +60,12 @@ pub enum PlacementError {
     Rigid(#[from] RigidError),
 }
 
-/// An armour layer that has settled.
+/// Armour layers that have settled.
 #[derive(Debug, Clone)]
-pub struct ArmourLayer {
-    /// Poses and velocities of the units at the end.
-    pub units: Vec<BodyState>,
-    /// Number of units that left the slope: at the end, their centre is seaward or shoreward of the covered slope.
-    pub rolled_off: usize,
-    /// Packing density of the units that stayed on the slope: their number divided by A / D_n^2 [-].
-    pub packing_density: f64,
-    /// Deepest overlap of a contact at the end, divided by the height of a unit [-].
+pub struct ArmourLayers {
+    /// The placed groups, in the order of placement.
+    pub groups: Vec<PlacedGroup>,
+    /// Deepest overlap of a contact at the end, divided by the height of the highest unit [-].
     pub deepest_overlap: f64,
     /// Kinetic energy at the end, divided by the potential energy that the units lost since their release [-].
     pub unrest: f64,
@@ -73,17 +79,56 @@ pub struct ArmourLayer {
     pub contacts: usize,
 }
 
-impl ArmourLayer {
-    /// Returns the poses of the units as a placement file.
-    pub fn file(&self, title: &str) -> PlacementFile {
+/// A group of units that has settled.
+#[derive(Debug, Clone)]
+pub struct PlacedGroup {
+    /// Name of the group.
+    pub name: String,
+    /// Poses and velocities of the units at the end.
+    pub units: Vec<BodyState>,
+    /// Number of units that left the slope: at the end, their centre is seaward or shoreward of the covered slope.
+    pub rolled_off: usize,
+    /// Packing density of the units that stayed on the slope: their number divided by A / D_n^2 [-].
+    pub packing_density: f64,
+    /// Packing density of the job [-].
+    pub wanted: f64,
+}
+
+impl PlacedGroup {
+    /// Returns true if the packing density is that of the job within 3 %, or within half a unit.
+    pub fn is_complete(&self) -> bool {
+        let stayed = (self.units.len() - self.rolled_off) as f64;
+        let of_one = self.packing_density / stayed.max(1.0);
+        (self.packing_density - self.wanted).abs() <= (TOLERANCE * self.wanted).max(0.5 * of_one)
+    }
+
+    fn poses(&self) -> Vec<PoseFile> {
         let pose = |state: &BodyState| PoseFile {
             centre_m: state.position.to_array(),
             quaternion_xyzw: state.rotation.to_array(),
         };
+        self.units.iter().map(pose).collect()
+    }
+}
+
+impl ArmourLayers {
+    /// Returns the poses of the units as a placement file; `all` is the number of groups of the case.
+    pub fn file(&self, title: &str, all: usize) -> PlacementFile {
+        let title = title.to_owned();
+        if let ([group], 1) = (&self.groups[..], all) {
+            let packing_density = Some(group.packing_density);
+            return PlacementFile { title, packing_density, poses: group.poses(), groups: Vec::new() };
+        }
+        let of_group = |group: &PlacedGroup| PlacedGroupFile {
+            name: group.name.clone(),
+            packing_density: group.packing_density,
+            poses: group.poses(),
+        };
         PlacementFile {
-            title: title.to_owned(),
-            packing_density: Some(self.packing_density),
-            poses: self.units.iter().map(pose).collect(),
+            title,
+            packing_density: None,
+            poses: Vec::new(),
+            groups: self.groups.iter().map(of_group).collect(),
         }
     }
 }
@@ -92,54 +137,143 @@ impl ArmourLayer {
 ///
 /// # Errors
 /// If there is no room for a unit, or the contact solver becomes unstable.
-pub fn place(job: &LayerJob, report: impl FnMut(usize, f64) + Send) -> Result<ArmourLayer, PlacementError> {
+pub fn place(job: &LayerJob, report: impl FnMut(usize, f64) + Send) -> Result<ArmourLayers, PlacementError> {
     // As in `output::driver::drive`, the loop runs on a thread of the rayon pool.
-    rayon::scope(|_| place_rows(job, report))
+    rayon::scope(|_| place_layers(job, report))
 }
 
-fn place_rows(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<ArmourLayer, PlacementError> {
+fn place_layers(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<ArmourLayers, PlacementError> {
     let setup = rigid_setup(&job.units, &job.site, &job.materials, job.contact.law, job.gravity);
-    let mut world = RigidWorld::new(RigidSetup { bodies: Vec::new(), ..setup })?;
-    let height = job.group().shape.height();
-    let scale = (job.gravity * height).sqrt();
-    let mut potential_at_release = 0.0;
-    for row in rows(job) {
-        for slot in &row {
-            let unit = world.states().len() + 1;
-            let Slot { x, y, rotation } = *slot;
-            let from = DVec3::new(x, y, highest(&world, &job.site, x) + 2.0 * height);
-            let state = lowered(&world, from, rotation, job.site.profile.z(x), height)
-                .ok_or(PlacementError::NoRoom { unit, x, y })?;
-            potential_at_release += job.group().mass * job.gravity * state.position.z;
-            world.add(0, state);
-            report(unit, world.time());
+    let world = RigidWorld::new(setup)?;
+    let first = world.states().len();
+    let mut yard = Yard { job, potential: world.energy().potential, world, first };
+    let mut members = Vec::new();
+    for layers in &job.layers {
+        let begin = yard.world.states().len();
+        for row in rows(job, layers) {
+            for slot in &row {
+                yard.lower(layers, slot, &mut report)?;
+            }
+            yard.settle_row(layers)?;
         }
-        let begun = world.time();
-        while world.time() - begun < ROW_TIME[0]
-            || (fastest(&world, height) > ROW_SPEED * scale && world.time() - begun < ROW_TIME[1])
-        {
-            advance(&mut world)?;
-        }
+        yard.replace_lost(layers, begin, &mut report)?;
+        members.push(begin..yard.world.states().len());
     }
-    let begun = world.time();
-    while fastest(&world, height) > REST_SPEED * scale && world.time() - begun < LAST_TIME {
-        advance(&mut world)?;
-    }
-    let units = world.states().to_vec();
-    let [x0, x1] = job.armour.x;
-    let rolled_off = units.iter().filter(|unit| !(x0..=x1).contains(&unit.position.x)).count();
+    yard.settle()?;
+    let Yard { world, potential, .. } = yard;
     let energy = world.energy();
-    Ok(ArmourLayer {
-        rolled_off,
-        packing_density: (units.len() - rolled_off) as f64 / job.area(),
-        deepest_overlap: world.deepest_overlap() / height,
-        unrest: energy.kinetic / (potential_at_release - energy.potential).max(f64::MIN_POSITIVE),
-        fastest: fastest(&world, height),
+    let group = |(layers, members): (&Layers, Range<usize>)| {
+        let units = world.states()[members].to_vec();
+        let rolled_off = units.iter().filter(|unit| !is_on_slope(layers, unit)).count();
+        PlacedGroup {
+            name: job.group(layers).name.clone(),
+            packing_density: (units.len() - rolled_off) as f64 / job.area(layers),
+            wanted: layers.armour.packing_density,
+            rolled_off,
+            units,
+        }
+    };
+    Ok(ArmourLayers {
+        groups: job.layers.iter().zip(members).map(group).collect(),
+        deepest_overlap: world.deepest_overlap() / job.units.tallest(),
+        unrest: energy.kinetic / (potential - energy.potential).max(f64::MIN_POSITIVE),
+        fastest: fastest(&world, job.units.tallest()),
         time: world.time(),
         substeps: world.substeps(),
         contacts: world.contact_count(),
-        units,
     })
+}
+
+/// Returns true if the centre of a unit is above the slope that the layers cover.
+fn is_on_slope(layers: &Layers, unit: &BodyState) -> bool {
+    let [x0, x1] = layers.armour.x;
+    (x0..=x1).contains(&unit.position.x)
+}
+
+/// The units during the placement.
+struct Yard<'a> {
+    job: &'a LayerJob,
+    world: RigidWorld,
+    /// Sum of the potential energies of all units at their release [J].
+    potential: f64,
+    /// Number of units that were in place at the start.
+    first: usize,
+}
+
+impl Yard<'_> {
+    /// Lowers a unit until it touches, and releases it.
+    fn lower(
+        &mut self,
+        layers: &Layers,
+        slot: &Slot,
+        report: &mut impl FnMut(usize, f64),
+    ) -> Result<(), PlacementError> {
+        let Slot { x, y, rotation } = *slot;
+        let (site, group) = (&self.job.site, self.job.group(layers));
+        let unit = self.world.states().len() + 1 - self.first;
+        let from = DVec3::new(x, y, self.highest(x) + 2.0 * self.job.units.tallest());
+        let ground = site.level(x, y.rem_euclid(site.width));
+        let state = lowered(&self.world, layers.group, from, rotation, ground, group.shape.height())
+            .ok_or(PlacementError::NoRoom { unit, x, y })?;
+        self.potential += group.mass * self.job.gravity * state.position.z;
+        self.world.add(layers.group, state);
+        report(unit, self.world.time());
+        Ok(())
+    }
+
+    /// Returns the level of the highest unit centre, or that of the ground at `x` if the ground is higher [m].
+    fn highest(&self, x: f64) -> f64 {
+        self.world.states().iter().map(|state| state.position.z).fold(self.job.site.highest_at(x), f64::max)
+    }
+
+    /// Waits until the units of a row are slow.
+    fn settle_row(&mut self, layers: &Layers) -> Result<(), PlacementError> {
+        let height = self.job.group(layers).shape.height();
+        let slow = ROW_SPEED * (self.job.gravity * height).sqrt();
+        let begun = self.world.time();
+        while self.world.time() - begun < ROW_TIME[0]
+            || (fastest(&self.world, height) > slow && self.world.time() - begun < ROW_TIME[1])
+        {
+            advance(&mut self.world)?;
+        }
+        Ok(())
+    }
+
+    /// Waits until all units are at rest.
+    fn settle(&mut self) -> Result<(), PlacementError> {
+        let height = self.job.units.tallest();
+        let slow = REST_SPEED * (self.job.gravity * height).sqrt();
+        let begun = self.world.time();
+        while fastest(&self.world, height) > slow && self.world.time() - begun < LAST_TIME {
+            advance(&mut self.world)?;
+        }
+        Ok(())
+    }
+
+    /// Lowers further units where the layers are thinnest, for the units from number `begin` on that left the slope.
+    fn replace_lost(
+        &mut self,
+        layers: &Layers,
+        begin: usize,
+        report: &mut impl FnMut(usize, f64),
+    ) -> Result<(), PlacementError> {
+        let wanted = self.job.count(layers);
+        let mut random = SplitMix64::new(layers.armour.seed ^ REPLACEMENTS);
+        for _ in 0..MOST_ROUNDS {
+            self.settle()?;
+            let on_slope = |unit: &&BodyState| is_on_slope(layers, unit);
+            let stayed = self.world.states()[begin..].iter().filter(on_slope).count();
+            if stayed >= wanted {
+                break;
+            }
+            for _ in stayed..wanted {
+                let slot = thinnest(self.job, layers, &self.world.states()[begin..], &mut random);
+                self.lower(layers, &slot, report)?;
+                self.settle_row(layers)?;
+            }
+        }
+        Ok(())
+    }
 }
 
 fn advance(world: &mut RigidWorld) -> Result<(), RigidError> {
@@ -151,9 +285,4 @@ fn advance(world: &mut RigidWorld) -> Result<(), RigidError> {
 fn fastest(world: &RigidWorld, height: f64) -> f64 {
     let speed = |state: &BodyState| state.velocity.length() + 0.5 * height * state.angular_velocity.length();
     world.states().iter().map(speed).fold(0.0, f64::max)
-}
-
-/// Returns the level of the highest unit centre, or the level of the ground at `x` if the ground is higher [m].
-fn highest(world: &RigidWorld, site: &Site, x: f64) -> f64 {
-    world.states().iter().map(|state| state.position.z).fold(site.highest_at(x), f64::max)
 }

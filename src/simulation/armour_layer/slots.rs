@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 use glam::DQuat;
 
 use crate::{
-    case::{ArmourOrientation, LayerJob, Sides},
+    case::{ArmourOrientation, LayerJob, Layers, Sides},
     random::SplitMix64,
+    rigid::BodyState,
 };
 
 /// Position [m] and rotation in which a unit is lowered.
@@ -22,19 +23,19 @@ pub(super) struct Slot {
 const FROM_WALL: f64 = 0.68;
 
 /// Returns the rows of all layers in the order of placement: layer by layer, and in each layer from the toe upwards.
-pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
-    let (armour, unit) = (&job.armour, job.group().shape.unit());
+pub(super) fn rows(job: &LayerJob, layers: &Layers) -> Vec<Vec<Slot>> {
+    let (armour, unit) = (&layers.armour, job.group(layers).shape.unit());
     let mut random = SplitMix64::new(armour.seed);
-    let slope = job.slope();
+    let slope = job.slope(layers);
     let width = job.site.width;
     let margin = if job.site.sides == Sides::Periodic { 0.0 } else { FROM_WALL * unit.height() };
     let free = (width - 2.0 * margin).max(0.0);
-    let (all, layers) = (job.count(), armour.layers as usize);
+    let (all, count_of_layers) = (job.count(layers), armour.layers as usize);
     let length = length_of(&slope);
     let mut rows = Vec::new();
-    for layer in 0..layers {
+    for layer in 0..count_of_layers {
         // If the number of units is not a multiple of the number of layers, the first layers get one more unit each.
-        let count = all / layers + usize::from(layer < all % layers);
+        let count = all / count_of_layers + usize::from(layer < all % count_of_layers);
         let pitch = (length * width / count.max(1) as f64).sqrt();
         let across = ((width / pitch).round() as usize).max(1);
         let along = count.div_ceil(across);
@@ -63,6 +64,41 @@ pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
         rows.extend(of_layer);
     }
     rows
+}
+
+/// Returns the place on the slope around which the fewest units are, with a random rotation. `units` lists the units of
+/// the layers.
+pub(super) fn thinnest(job: &LayerJob, layers: &Layers, units: &[BodyState], random: &mut SplitMix64) -> Slot {
+    let unit = job.group(layers).shape.unit();
+    let (slope, width) = (job.slope(layers), job.site.width);
+    let margin = if job.site.sides == Sides::Periodic { 0.0 } else { FROM_WALL * unit.height() };
+    let size = job.group(layers).shape.nominal_diameter();
+    let length = length_of(&slope);
+    // Candidates half a nominal diameter apart, at random places within their cells.
+    let cells = |length: f64| ((2.0 * length / size).round() as usize).max(1);
+    let (along, across) = (cells(length), cells(width - 2.0 * margin));
+    let mut best: Option<(f64, [f64; 2])> = None;
+    for (i, j) in (0..along).flat_map(|i| (0..across).map(move |j| (i, j))) {
+        let share =
+            |index: usize, count: usize, random: &mut SplitMix64| (index as f64 + random.next_share()) / count as f64;
+        let x = along_slope(&slope, share(i, along, random) * length);
+        let y = margin + share(j, across, random) * (width - 2.0 * margin);
+        // Units count less the further away they are.
+        let near = |state: &BodyState| {
+            let dx = state.position.x - x;
+            let dy = match job.site.sides {
+                Sides::Periodic => (state.position.y - y) - width * ((state.position.y - y) / width).round(),
+                Sides::Walls | Sides::TwoDimensional => state.position.y - y,
+            };
+            (1.0 - dx.hypot(dy) / (1.5 * size)).max(0.0)
+        };
+        let crowd: f64 = units.iter().map(near).sum();
+        if best.is_none_or(|(least, _)| crowd < least) {
+            best = Some((crowd, [x, y]));
+        }
+    }
+    let [x, y] = best.map_or([slope[0][0], 0.5 * width], |(_, place)| place);
+    Slot { x, y, rotation: random.next_rotation() }
 }
 
 fn length_of(slope: &[[f64; 2]]) -> f64 {

@@ -107,21 +107,24 @@ class Drawing {
       corners: gl.createBuffer(), count: 0, dots: false, smooth: false };
   }
 
+  // Sets the numbers of an attribute, `size` per point. Integers are shares of their largest value.
+  attribute(index, buffer, data, size, type) {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
+    gl.enableVertexAttribArray(index);
+    gl.vertexAttribPointer(index, size, type, type !== gl.FLOAT, 0, 0);
+  }
+
   // Sets the points (integers 0 to 65535 for the box of the layer), and the triangles or null for dots. `normals` and
   // `values` (0 to 1 for the colour scale) may be null.
   fill(mesh, points, triangles, normals) {
     const { gl } = this;
     gl.bindVertexArray(mesh.array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, mesh.places);
-    gl.bufferData(gl.ARRAY_BUFFER, Uint16Array.from(points), gl.DYNAMIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 3, gl.UNSIGNED_SHORT, true, 0, 0);
+    this.attribute(0, mesh.places, Uint16Array.from(points), 3, gl.UNSIGNED_SHORT);
     mesh.smooth = Boolean(normals);
     if (normals) {
-      gl.bindBuffer(gl.ARRAY_BUFFER, mesh.normals);
-      gl.bufferData(gl.ARRAY_BUFFER, normals, gl.DYNAMIC_DRAW);
-      gl.enableVertexAttribArray(1);
-      gl.vertexAttribPointer(1, 3, gl.FLOAT, false, 0, 0);
+      this.attribute(1, mesh.normals, normals, 3, gl.FLOAT);
     } else {
       gl.disableVertexAttribArray(1);
       gl.vertexAttrib3f(1, 0, 0, 1);
@@ -139,10 +142,7 @@ class Drawing {
   paint(mesh, values) {
     const { gl } = this;
     gl.bindVertexArray(mesh.array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, mesh.values);
-    gl.bufferData(gl.ARRAY_BUFFER, Uint8Array.from(values), gl.DYNAMIC_DRAW);
-    gl.enableVertexAttribArray(2);
-    gl.vertexAttribPointer(2, 1, gl.UNSIGNED_BYTE, true, 0, 0);
+    this.attribute(2, mesh.values, Uint8Array.from(values), 1, gl.UNSIGNED_BYTE);
     gl.bindVertexArray(null);
   }
 

@@ -14,17 +14,18 @@ use std::{
 
 use super::{
     checkpoint::Checkpoint,
+    gauge_rows::{gauge_columns, gauge_row},
     recorder_state::RecorderState,
     snapshots::{Frame, SURFACES_FILE, SnapshotFiles, WATER_FILE},
     surface::{SURFACE_FILE, WaterParts},
 };
 use crate::simulation::flume::{Simulation, Units, measures::water_at_impacts::pressure_places, step::PreparedStep};
 use crate::{
-    case::{BreakageSettings, Case, Gauge, Quantity, ROWS_FILE, Reference, Wave},
+    case::{BreakageSettings, ROWS_FILE, Reference, Wave},
     output::{
         CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges,
     },
-    rigid::{ContactEvent, RecordedContact},
+    rigid::{ContactEvent, Load, RecordedContact},
     sph::solver::power::Powers,
 };
 
@@ -232,23 +233,20 @@ impl Recorder {
             // No time step was made since the last row.
             mean_pressures.clone_from(&pressures);
         }
-        self.gauges.append(&gauge_row(now, [&pressures, &mean_pressures]))?;
+        let loads = now.units.as_mut().map_or_else(Vec::new, mean_loads);
+        self.gauges.append(&gauge_row(now, [&pressures, &mean_pressures], &loads))?;
         let powers = now.powers()?;
         self.energy.append(&energy_row(now, powers))?;
         self.diagnostics.append(&now.diagnostics_row(dt, powers.divergence))?;
         let simulation: &mut Simulation = now;
         let Some(units) = &mut simulation.units else { return Ok(()) };
         let events = units.world.take_events();
-        let means = units.mean_loads.take();
         let free = simulation.time > simulation.case.numerics.hold_units;
         for (number, state) in units.states().iter().enumerate() {
-            // At the first row, no time step was made yet, so there is no mean load: use the current loads.
-            let now = || [units.fluid_loads[number], units.world.contact_loads()[number]];
-            let loads = means.as_ref().map_or_else(now, |means| means[number]);
             if free {
-                simulation.statistics.count_mean_loads(number, loads);
+                simulation.statistics.count_mean_loads(number, loads[number]);
             }
-            let [fluid, contact] = loads;
+            let [fluid, contact] = loads[number];
             let mut row = vec![time, (number + 1) as f64];
             row.extend(state.position.to_array());
             row.extend(state.rotation.to_array());
@@ -287,50 +285,12 @@ impl Recorder {
     }
 }
 
-/// Returns the gauges in the particle domain.
-fn wet_gauges(case: &Case) -> impl Iterator<Item = &Gauge> {
-    case.gauges.iter().filter(|gauge| gauge.in_domain)
-}
-
-fn gauge_columns(case: &Case) -> Vec<String> {
-    let names = wet_gauges(case).flat_map(|gauge| match gauge.quantity {
-        Quantity::Elevation => vec![columns::elevation(&gauge.name), columns::wetted_length(&gauge.name)],
-        Quantity::Pressure => columns::pressure(&gauge.name).to_vec(),
-        Quantity::Velocity => columns::velocity(&gauge.name).to_vec(),
-    });
-    ["time_s".to_owned()].into_iter().chain(names).collect()
-}
-
-/// Returns a row of `gauges.csv`. Gauges without water have NaN, but a wetted length of zero. Gauges behind the
-/// wavemaker or less than the smoothing length in front of it have NaN. `pressures` lists the pressures of the pressure
-/// gauges [Pa], first at this time, then averaged since the last row; the second list is empty if the device does not
-/// compute means.
-fn gauge_row(simulation: &Simulation, pressures: [&[Option<f64>]; 2]) -> Vec<f64> {
-    let case = &simulation.case;
-    let is_between = |x: f64| simulation.is_between_moving_ends(x);
-    let mut pressure_gauge = 0;
-    let mut row = vec![simulation.flume_time()];
-    for gauge in wet_gauges(case) {
-        let at = simulation.gauge_position(gauge);
-        let sampler = simulation.region_at(at.x).sampler();
-        let sample = || sampler.sample(at).filter(|_| is_between(at.x));
-        match gauge.quantity {
-            Quantity::Elevation => {
-                let bed = case.flume.profile.z(at.x);
-                let level = sampler.surface(at.truncate(), bed).filter(|_| is_between(at.x));
-                row.push(level.map_or(f64::NAN, |z| z - case.flume.still_water_level));
-                let wetted = is_between(at.x).then(|| sampler.wetted_length(at.truncate(), bed));
-                row.push(wetted.unwrap_or(f64::NAN));
-            }
-            Quantity::Pressure => {
-                let value = |list: &[Option<f64>]| list.get(pressure_gauge).copied().flatten().unwrap_or(f64::NAN);
-                row.extend(pressures.map(value));
-                pressure_gauge += 1;
-            }
-            Quantity::Velocity => row.extend(sample().map_or([f64::NAN; 3], |s| s.velocity.to_array())),
-        }
-    }
-    row
+/// Returns the loads of water and contact on each unit, averaged since the last row.
+fn mean_loads(units: &mut Units) -> Vec<[Load; 2]> {
+    // At the first row, no time step was made yet, so there is no mean load: use the current loads.
+    let now = |(fluid, contact): (&Load, &Load)| [*fluid, *contact];
+    let means = units.mean_loads.take();
+    means.unwrap_or_else(|| units.fluid_loads.iter().zip(units.world.contact_loads()).map(now).collect())
 }
 
 fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 10] {

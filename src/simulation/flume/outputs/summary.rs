@@ -108,7 +108,10 @@ fn group_of(group: &UnitGroup) -> GroupSummary {
         name: group.name.clone(),
         units: [group.members.start as u32 + 1, group.members.end as u32],
         fixed: group.is_fixed,
-        damage_distance_m: group.damage_distance,
+        nominal_diameter_m: group.shape.nominal_diameter(),
+        damage_measure: group.limits.measure,
+        damage_distance_m: group.limits.distance,
+        rotation_limit_deg: group.limits.rotation_deg,
         ..GroupSummary::default()
     }
 }
@@ -126,7 +129,7 @@ fn units_of(simulation: &Simulation) -> Vec<UnitSummary> {
             peak_contact_force_n: statistics.peak_contact_force[k],
             bed_contacts: statistics.contacts[k][0],
             unit_contacts: statistics.contacts[k][1],
-            ..UnitSummary::moved(k as u32 + 1, from, to, angle.to_degrees(), group.damage_distance)
+            ..UnitSummary::moved(k as u32 + 1, from, to, angle.to_degrees(), group.limits)
         }
     };
     units.group_of_each().enumerate().map(summary_of).collect()
