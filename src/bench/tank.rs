@@ -2,11 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::geometry::outline::Outline;
 use crate::sph::{
     lanes::InstructionSet,
     parameters::Parameters,
     particles::{
-        bed::{Across, Outline, outline_particles},
+        bed::{Across, outline_particles},
         boundary::{Boundary, BoundaryParticle},
         fill::Basin,
         water::Water,
@@ -44,7 +45,7 @@ impl Tank {
         let basin = Basin { x: [0.0, length], across, dp, bed: &|_| 0.0, surface, velocity, gravity };
         let top = 1.5 * depth;
         let corners = [[0.0, top], [0.0, 0.0], [length, 0.0], [length, top]];
-        let outline = Outline::new(corners.map(DVec2::from_array).to_vec());
+        let outline = Outline::new(&corners.map(DVec2::from_array));
         let walls = outline_particles(&outline, &across, dp, LAYERS, parameters.kernel.support());
         let margin = DVec3::new(5.0 * dp, 0.0, 5.0 * dp);
         let high = DVec3::new(length, width, top) + margin;

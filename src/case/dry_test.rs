@@ -5,7 +5,9 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::breakage::{self, BreakageSettings};
-use super::file::{DryFile, DryOutputFile, DryTestFile, FlumeFile, Sides};
+use super::file::{DryDomainFile, DryFile, DryOutputFile, DryTestFile, FlumeFile, Sides};
+use super::flume::ground::GroundMaterials;
+use super::flume::structure::{self, Room};
 use super::flume::{bed, site::Site, terrain};
 use super::output::{files, stop, stop::Stop};
 use super::reading::check::{Checker, at_least, more_than};
@@ -149,6 +151,10 @@ fn self_contained(
         kept.breakage = kept.breakage.as_ref().map(BreakageSettings::entry);
         read.extend(&settings.mesh_file);
     }
+    // Parts from STL files become polygons and boxes.
+    let parts = file.structure.iter().zip(&site.parts);
+    kept.structure =
+        parts.map(|(file, part)| if file.stl.is_some() { part.entry(file) } else { file.clone() }).collect();
     if let Some(terrain) = &site.terrain {
         kept.flume.terrain = Some(terrain.entry());
         read.extend(terrain.content.iter());
@@ -165,9 +171,9 @@ pub(super) struct Ground {
 
 /// Validates the materials, the ground and the contact settings.
 pub(super) fn validate_ground(file: &DryFile, name: &str, check: &mut Checker) -> Ground {
-    let ground = GroundNames::new(Some(&file.flume.material), file.flume.mound.as_ref());
+    let ground = GroundNames::new(Some(&file.flume.material), file.flume.mound.as_ref(), &file.structure);
     let materials = materials::validate(&file.materials, &file.friction, ground, check);
-    let site = validate_site(file, name, materials.ground, check);
+    let site = validate_site(file, name, materials.of_ground(), check);
     let contact = contact::validate(&file.contact, check);
     Ground { materials, site, contact }
 }
@@ -181,9 +187,9 @@ impl Ground {
 }
 
 /// Validates ground, terrain and boundaries of the test area.
-fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mut Checker) -> Option<Site> {
+fn validate_site(file: &DryFile, name: &str, materials: GroundMaterials, check: &mut Checker) -> Option<Site> {
     let ground = FlumeFile::dry(file.flume.bed_m.clone(), file.flume.mound.clone());
-    let flume = bed::validate(&ground, material, check)?;
+    let mut flume = bed::validate(&ground, [materials.bed, materials.mound], check)?;
     let before = check.count();
     let terrain = file.flume.terrain.as_ref().and_then(|file| terrain::validate(file, name, check));
     let [start, end] = flume.ends();
@@ -207,6 +213,9 @@ fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mu
     if check.count() > before {
         return None;
     }
+    let DryDomainFile { x_m, width_m, sides, top_z_m } = file.domain;
+    let around = Room { name, x: x_m, width: Some(width_m), sides, top_z: top_z_m, dp: None };
+    let parts = structure::place_on_bed(&file.structure, materials.parts, &mut flume, &around, check)?;
     let highest = flume.profile.extremes_between(file.domain.x_m).1;
     let room = more_than(highest).up_to(highest + 1000.0);
     if !check.number("domain.top_z_m", file.domain.top_z_m, room, "m", "leave room for the units") {
@@ -216,9 +225,9 @@ fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mu
         terrain::validate_place(terrain, &flume.profile, [x0, x1], file.domain.width_m, file.domain.top_z_m, check);
     }
     let (x, width, sides, top_z) = (file.domain.x_m, file.domain.width_m, file.domain.sides, file.domain.top_z_m);
-    let mound_x = flume.mound.map(|mound| mound.toe_x);
-    let (profile, obstacles) = (flume.profile, Vec::new());
-    (check.count() == before).then_some(Site { profile, mound_x, terrain, obstacles, x, width, sides, top_z })
+    let parts = structure::validate(parts, &[], &flume, width, &around, check)?;
+    let (profile, covers) = (flume.profile, flume.covers);
+    (check.count() == before).then_some(Site { profile, covers, terrain, parts, x, width, sides, top_z })
 }
 
 /// Returns the test and the height by which it lifts the units [m].

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::file::{ArmourFile, ArmourOrientation, CaseFile, DryFile, UnitGroupsFile};
-use super::flume::{bed, domain, site::Site};
+use super::flume::{ground, site::Site};
 use super::reading::check::{Checker, at_least, more_than};
 use super::reading::document::{Document, InputKind};
 use super::reading::error::CaseErrors;
@@ -106,10 +106,10 @@ fn validate_dry_test(file: &DryFile, document: &Document, check: &mut Checker) -
 }
 
 fn validate_flume_case(file: &CaseFile, document: &Document, check: &mut Checker) -> Option<LayerJob> {
-    let ground = GroundNames::new(file.flume.material.as_deref(), file.flume.mound.as_ref());
-    let materials = materials::validate(&file.materials, &file.friction, ground, check);
-    let flume = bed::validate(&file.flume, materials.ground, check)?;
-    let domain = domain::validate(&file.domain, Some(&flume), file.numerics.smoothing_factor, check)?;
+    let names = GroundNames::new(file.flume.material.as_deref(), file.flume.mound.as_ref(), &file.structure);
+    let materials = materials::validate(&file.materials, &file.friction, names, check);
+    let (flume, domain) = ground::validate(file, &document.name, materials.of_ground(), check);
+    let (flume, domain) = (flume?, domain?);
     let contact = contact::validate(&file.contact, check);
     let Some(units) = &file.units else {
         check.reject("units", "(missing)", "given", "there is nothing to place without units");

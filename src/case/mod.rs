@@ -39,6 +39,7 @@ pub use file::{
 };
 pub use flume::bed::{Flume, Mound};
 pub use flume::domain::{Domain, Start, Water};
+pub use flume::part::{Part, PartShape};
 pub use flume::regions::Region;
 pub use flume::site::Site;
 pub use flume::terrain::SiteTerrain;

@@ -4,6 +4,7 @@ pub mod armour_unit;
 pub mod axis_box;
 pub mod convex;
 pub mod decomposition;
+pub mod outline;
 pub mod profile;
 pub mod solid;
 pub mod stl;

@@ -45,8 +45,8 @@ pub use schedule::Schedule;
 pub use series::CsvSeries;
 pub use size::OutputSize;
 pub use summary::{
-    BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, PressureSummary, Stopped, Summary,
-    TimeStepSummary, WaveSummary,
+    BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, PressureSummary, SectionSummary,
+    Stopped, Summary, TimeStepSummary, WaveSummary,
 };
 pub use table::Table;
 pub use unit_summary::{GroupSummary, UnitSummary};

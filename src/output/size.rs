@@ -94,7 +94,7 @@ fn table_bytes(case: &Case, rows: f64) -> f64 {
     let gauge_columns = |quantity: &Quantity| match quantity {
         Quantity::Elevation | Quantity::Pressure => 2.0,
         Quantity::Velocity => 3.0,
-        Quantity::Force(_) => 6.0,
+        Quantity::Force(_) | Quantity::PartForce(_) => 6.0,
     };
     let gauges = case.gauges.iter().filter(|gauge| gauge.in_domain).map(|gauge| gauge_columns(&gauge.quantity));
     let units = case.units.as_ref().map_or(0, Units::count) as f64;

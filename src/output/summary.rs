@@ -74,6 +74,9 @@ pub struct Summary {
     /// Lower corner [x, y, z] and upper corner of each fixed obstacle [m].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacles_m: Vec<[[f64; 3]; 2]>,
+    /// Parts of the structure that are the same across the flume and not part of the bed profile.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sections: Vec<SectionSummary>,
     /// Number of time steps.
     pub steps: u64,
     /// Simulated time since the start of the particles [s].
@@ -179,6 +182,15 @@ pub struct ParticleCounts {
     pub wavemaker: u64,
     /// Boundary particles of the units.
     pub units: u64,
+}
+
+/// A part of the structure that is the same across the flume.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SectionSummary {
+    /// Name.
+    pub name: String,
+    /// Corners [x, z] of the section [m].
+    pub points_m: Vec<[f64; 2]>,
 }
 
 /// Length of the time steps [s].

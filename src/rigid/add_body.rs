@@ -58,7 +58,11 @@ mod tests {
             bodies: Body::of_first_kind([BodyState::at_rest(DVec3::new(0.0, 0.5, 0.1), DQuat::IDENTITY)]),
             materials: vec![material],
             pairs: vec![MaterialPair { between: [0, 0], resistance: 0.5.into() }],
-            ground: Some(Ground { profile: Profile::new(vec![[-5.0, 0.0], [5.0, 0.0]]), material: 0, cover: None }),
+            ground: Some(Ground {
+                profile: Profile::new(vec![[-5.0, 0.0], [5.0, 0.0]]),
+                material: 0,
+                covers: Vec::new(),
+            }),
             surfaces: Vec::new(),
             sides,
             end_walls: None,

@@ -9,7 +9,7 @@ use super::law::ContactLaw;
 use super::motion::Load;
 use super::record::{ContactRecords, ForceStep};
 use super::search::ground::places_between;
-use super::setup::{BodyKind, RigidSetup};
+use super::setup::{BodyKind, Ground, RigidSetup};
 
 /// Energy balance of all bodies [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
 /// load_work is constant. Small errors come from the time stepping, and from the change of the tangential stiffness
@@ -34,8 +34,8 @@ pub struct Energy {
 #[derive(Debug, Clone)]
 pub struct Laws {
     kinds: Vec<LawsOfKind>,
-    /// The first and the last number of the ground elements under the cover.
-    cover: Option<[u32; 2]>,
+    /// For each cover, the first and the last number of the ground elements under it.
+    covers: Vec<[u32; 2]>,
     /// Number of the first element of each triangle surface.
     first_places: Vec<u32>,
     least_radius: f64,
@@ -47,7 +47,8 @@ struct LawsOfKind {
     /// With each kind of body.
     bodies: Vec<ContactLaw>,
     ground: ContactLaw,
-    cover: Option<ContactLaw>,
+    /// With each cover of the ground.
+    covers: Vec<ContactLaw>,
     /// With each triangle surface.
     surfaces: Vec<ContactLaw>,
     wall: ContactLaw,
@@ -72,10 +73,13 @@ impl Laws {
     /// Creates the contact laws. On ground and walls, effective mass and radius are those of the body. Between two
     /// bodies, they are half of the harmonic mean: m = m_a m_b / (m_a + m_b), R = R_a R_b / (R_a + R_b).
     pub fn new(setup: &RigidSetup) -> Self {
-        let cover = setup.ground.as_ref().and_then(|ground| Some(places_between(&ground.profile, ground.cover?.x)));
+        let covers_of = |ground: &Ground| -> Vec<[u32; 2]> {
+            ground.covers.iter().map(|cover| places_between(&ground.profile, cover.x)).collect()
+        };
+        let covers = setup.ground.as_ref().map(covers_of).unwrap_or_default();
         let least_radius = setup.kinds.iter().map(rounding).fold(f64::MAX, f64::min);
         let kinds = setup.kinds.iter().map(|kind| LawsOfKind::new(kind, setup)).collect();
-        Self { kinds, cover, first_places: setup.first_places().collect(), least_radius }
+        Self { kinds, covers, first_places: setup.first_places().collect(), least_radius }
     }
 
     fn law_of(&self, pair: &ContactMotion) -> &ContactLaw {
@@ -83,10 +87,10 @@ impl Laws {
         let laws = &self.kinds[kind];
         match pair.point.key.feature {
             Feature::Unit { .. } => &laws.bodies[other],
-            Feature::Ground { place, .. } => match (&self.cover, &laws.cover) {
-                (Some([first, last]), Some(law)) if (*first..=*last).contains(&place) => law,
-                _ => &laws.ground,
-            },
+            Feature::Ground { place, .. } => {
+                let cover = self.covers.iter().rposition(|[first, last]| (*first..=*last).contains(&place));
+                cover.map_or(&laws.ground, |cover| &laws.covers[cover])
+            }
             Feature::Terrain { place, .. } => {
                 &laws.surfaces[self.first_places.partition_point(|first| *first <= place) - 1]
             }
@@ -189,7 +193,7 @@ impl LawsOfKind {
         Self {
             bodies: setup.kinds.iter().map(with).collect(),
             ground: fixed(ground.map_or(kind.material, |ground| ground.material)),
-            cover: ground.and_then(|ground| ground.cover).map(|cover| fixed(cover.material)),
+            covers: ground.iter().flat_map(|ground| &ground.covers).map(|cover| fixed(cover.material)).collect(),
             surfaces: setup.surfaces.iter().map(|surface| fixed(surface.material)).collect(),
             wall: fixed(setup.wall_material),
             mass,

@@ -83,8 +83,8 @@ pub struct Ground {
     pub profile: Profile,
     /// Material of the profile.
     pub material: usize,
-    /// A part of the profile with a surface of its own.
-    pub cover: Option<Cover>,
+    /// Parts of the profile with surfaces of their own. Where parts overlap, the last one is on top.
+    pub covers: Vec<Cover>,
 }
 
 /// Surface of a part of the profile.
@@ -189,15 +189,13 @@ impl RigidSetup {
     /// Checks that the setup contains every material, and the resistance of every pair of surfaces that can touch.
     fn check_pairs(&self) -> Result<(), RigidError> {
         let ground = self.ground.as_ref();
-        let fixed = [
-            Some(self.wall_material),
-            ground.map(|ground| ground.material),
-            ground.and_then(|ground| ground.cover).map(|cover| cover.material),
-        ];
+        let of_ground = ground.map(|ground| ground.material);
+        let of_covers = ground.into_iter().flat_map(|ground| &ground.covers).map(|cover| cover.material);
+        let fixed: Vec<usize> = [self.wall_material].into_iter().chain(of_ground).chain(of_covers).collect();
         let of_kinds = self.kinds.iter().map(|kind| kind.material);
         for a in self.kinds.iter().filter(|kind| !kind.is_fixed).map(|kind| kind.material) {
             let surfaces = self.surfaces.iter().map(|surface| surface.material);
-            for b in fixed.into_iter().flatten().chain(surfaces).chain(of_kinds.clone()) {
+            for b in fixed.iter().copied().chain(surfaces).chain(of_kinds.clone()) {
                 if let Some(unknown) = [a, b].into_iter().find(|index| *index >= self.materials.len()) {
                     return reject("the number of a material", unknown as f64, "less than the number of materials");
                 }

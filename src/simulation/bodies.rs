@@ -5,9 +5,9 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::{
-    case::{self, ContactLawName, Sides, Site, UnitGroup, UnitPose, Units},
-    geometry::{axis_box::AxisBox, terrain::Terrain},
-    rigid::{self, Body, BodyKind, BodyShape, BodyState, ContactModel, Cover, Ground, RigidSetup, TriangleSurface},
+    case::{self, ContactLawName, Part, PartShape, Sides, Site, UnitGroup, UnitPose, Units},
+    geometry::{axis_box::AxisBox, outline::polygon::Polygon, terrain::Terrain},
+    rigid::{self, Body, BodyKind, BodyShape, BodyState, ContactModel, Ground, RigidSetup, TriangleSurface},
 };
 
 /// Returns the set-up of the rigid-body solver: units, bed, walls, materials and contact law.
@@ -22,9 +22,12 @@ pub fn rigid_setup(
         let case::Material { young_modulus, poisson_ratio, restitution, .. } = materials[index];
         rigid::Material { young_modulus, poisson_ratio, restitution }
     };
-    let obstacles =
-        site.obstacles.iter().flat_map(|obstacle| images(obstacle, site)).map(|bounds| Arc::new(terrain(&bounds)));
-    let surface = |terrain| TriangleSurface { terrain, material: units.ground_material };
+    let terrain = site.terrain.iter().map(|terrain| (terrain.surface.clone(), units.ground_material));
+    let of_part = |part: &Part| {
+        let material = part.material.unwrap_or(units.ground_material);
+        surfaces_of(part, site).into_iter().map(move |surface| (Arc::new(surface), material))
+    };
+    let surfaces = terrain.chain(site.parts.iter().flat_map(of_part));
     let kind = |group: &UnitGroup| BodyKind {
         shape: BodyShape::from_unit(group.shape.unit(), group.mass),
         material: group.material,
@@ -41,9 +44,9 @@ pub fn rigid_setup(
         ground: Some(Ground {
             profile: site.profile.clone(),
             material: units.ground_material,
-            cover: site.mound_x.map(|x| Cover { x, material: units.mound_material }),
+            covers: site.covers.clone(),
         }),
-        surfaces: site.terrain.iter().map(|terrain| terrain.surface.clone()).chain(obstacles).map(surface).collect(),
+        surfaces: surfaces.map(|(terrain, material)| TriangleSurface { terrain, material }).collect(),
         sides: match site.sides {
             Sides::Periodic => rigid::Sides::Periodic { width: site.width },
             Sides::Walls => rigid::Sides::Walls { width: site.width },
@@ -60,29 +63,76 @@ pub fn rigid_setup(
     }
 }
 
-/// Returns an obstacle as units meet it. In a periodic flume, an obstacle across the whole width continues beyond both
-/// sides, and other obstacles have an image on each side.
-fn images(obstacle: &AxisBox, site: &Site) -> Vec<AxisBox> {
+/// Returns the surfaces of a part as units meet them; the ground has the parts of the bed. In a periodic flume, a part
+/// across the whole width continues beyond both sides, and other parts have an image on each side.
+fn surfaces_of(part: &Part, site: &Site) -> Vec<Terrain> {
+    match &part.shape {
+        PartShape::Bed(_) => Vec::new(),
+        PartShape::Section(polygon) => {
+            let [low, high] = polygon.bounds();
+            let beyond = beyond(site, (high - low).max_element());
+            vec![extruded(polygon, [-beyond, site.width + beyond])]
+        }
+        PartShape::Box(bounds) => images(bounds, site).iter().map(AxisBox::surface).map(terrain).collect(),
+    }
+}
+
+/// Returns a box as units meet it.
+fn images(bounds: &AxisBox, site: &Site) -> Vec<AxisBox> {
     let across = DVec3::Y * site.width;
     match site.sides {
-        Sides::Walls => vec![*obstacle],
-        Sides::Periodic if obstacle.open[1] == [true; 2] => {
-            [-1.0, 0.0, 1.0].map(|image| obstacle.shifted(image * across)).to_vec()
+        Sides::Walls => vec![*bounds],
+        Sides::Periodic if bounds.open[1] == [true; 2] => {
+            [-1.0, 0.0, 1.0].map(|image| bounds.shifted(image * across)).to_vec()
         }
         // In two dimensions, units are wider than the flume, which is one particle wide.
         Sides::Periodic | Sides::TwoDimensional => {
-            let beyond = ACROSS * across.max(DVec3::Y * obstacle.edges().max_element());
-            vec![AxisBox { low: obstacle.low - beyond, high: obstacle.high + beyond, open: obstacle.open }]
+            let beyond = DVec3::Y * beyond(site, bounds.edges().max_element());
+            vec![AxisBox { low: bounds.low - beyond, high: bounds.high + beyond, open: bounds.open }]
         }
     }
 }
 
-/// Distance by which an obstacle across a periodic flume continues beyond its sides, divided by the width of the flume
-/// or, if it is longer, the longest edge of the obstacle [-].
+/// Distance by which a part across a periodic flume continues beyond its sides, divided by the width of the flume or,
+/// if it is longer, the longest edge of the part [-].
 const ACROSS: f64 = 10.0;
 
-fn terrain(bounds: &AxisBox) -> Terrain {
-    let (vertices, triangles) = bounds.surface();
-    // The case validation has checked that the edges are positive.
-    Terrain::new(vertices, triangles).expect("a box has a closed surface")
+/// Returns the distance by which a part across the flume continues beyond its sides [m]; `longest` is the length of its
+/// longest edge [m].
+fn beyond(site: &Site, longest: f64) -> f64 {
+    ACROSS * site.width.max(longest)
+}
+
+/// Returns the faces of a body with this section between two y [m].
+fn extruded(section: &Polygon, y: [f64; 2]) -> Terrain {
+    let points = section.points();
+    let vertices = points.iter().flat_map(|point| y.map(|y| DVec3::new(point.x, y, point.y))).collect();
+    let count = points.len() as u32;
+    let face = |from: u32| {
+        let to = (from + 1) % count;
+        [[2 * from, 2 * to, 2 * to + 1], [2 * from, 2 * to + 1, 2 * from + 1]]
+    };
+    terrain((vertices, (0..count).flat_map(face).collect()))
+}
+
+fn terrain((vertices, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> Terrain {
+    // The case validation has checked that all edges are positive.
+    Terrain::new(vertices, triangles).expect("the faces of a part have areas")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faces_of_a_section_point_outwards() {
+        let section = Polygon::new(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 3.0]]).unwrap();
+        let surface = extruded(&section, [-1.0, 1.0]);
+        let corner = |v: u32| surface.vertices()[v as usize];
+        assert_eq!(surface.triangles().len(), 8);
+        for [a, b, c] in surface.triangles().iter().map(|triangle| triangle.map(corner)) {
+            let outside = (a + b + c) / 3.0 + 1e-6 * (b - a).cross(c - a).normalize();
+            assert!(section.distance(glam::DVec2::new(outside.x, outside.z)) > 0.0, "{outside}");
+        }
+    }
 }

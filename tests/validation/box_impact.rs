@@ -37,7 +37,7 @@ impl Impact {
                 continue;
             }
             impact.times.push(dam.time);
-            let pressures = dam.statistics.gauge_pressures.take();
+            let pressures = dam.statistics.gauge_means.take();
             impact.pressures.push(pressures.into_iter().map(|pressure| pressure.unwrap_or(0.0)).collect());
             let loads = dam.units.as_mut().and_then(|units| units.mean_loads.take());
             impact.forces.push(loads.map_or(0.0, |loads| -loads[0][0].force.x / (WIDTH * HEIGHT)));

@@ -11,12 +11,12 @@
 //! thick as it is high (Idelchik 2006, diagrams 4-14 and 4-15; formulas read in the Modelica library, not in the book).
 
 use breakwater::{
-    geometry::axis_box::AxisBox,
+    geometry::{axis_box::AxisBox, outline::Outline},
     rigid::{BodyState, Load},
     sph::{
         parameters::Parameters,
         particles::{
-            bed::{Across, Outline, outline_particles},
+            bed::{Across, outline_particles},
             boundary::{Boundary, BoundaryParticle},
             fill::{Basin, clear_solid},
             obstacle::box_particles,
@@ -202,7 +202,7 @@ impl Towed {
         };
         let (middle, top) = (0.5 * length, self.height);
         let corners = [[middle, top], [0.0, top], [0.0, 0.0], [length, 0.0], [length, top], [middle, top]];
-        let outline = Outline::new(corners.map(DVec2::from_array).to_vec());
+        let outline = Outline::new(&corners.map(DVec2::from_array));
         let walls = outline_particles(&outline, &across, dp, 3, parameters.kernel.support());
         let boundary = Boundary::new(&walls, &[], &[(self.particles.clone(), self.places.len())], RHO0);
         let mut water = basin.fill(&parameters.tait);

@@ -30,6 +30,7 @@ mod schemes;
 mod solitary_wave;
 mod standing_wave;
 mod still_water;
+mod structure;
 mod tanks;
 mod two_dimensional;
 mod two_dimensional_units;

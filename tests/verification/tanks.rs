@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use breakwater::bench::tank::Tank;
 use breakwater::case::Case;
+use breakwater::geometry::outline::Outline;
 use breakwater::geometry::{armour_unit::ArmourUnit, solid::Solid};
 use breakwater::rigid::BodyState;
 use breakwater::simulation::flume::{Simulation, step::PreparedStep};
-use breakwater::sph::particles::bed::{Across, Outline, outline_particles};
+use breakwater::sph::particles::bed::{Across, outline_particles};
 use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::particles::fill::{Basin, clear_solid};
 use breakwater::sph::particles::water::Water;
@@ -162,7 +163,7 @@ impl BareTank {
         // The outline follows all four walls, from the middle of the top.
         let (middle, s) = (0.5 * side, side);
         let corners = [[middle, s], [0.0, s], [0.0, 0.0], [s, 0.0], [s, s], [middle, s]];
-        let outline = Outline::new(corners.map(DVec2::from_array).to_vec());
+        let outline = Outline::new(&corners.map(DVec2::from_array));
         let fixed = outline_particles(&outline, &across, dp, 3, parameters.kernel.support());
         let margin = DVec3::new(5.0 * dp, 0.0, 5.0 * dp);
         Self {

@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{BreakageFile, ContactFile, FrictionFile, MaterialFile, MoundFile, Sides, StopFile, UnitGroupsFile};
+use super::{
+    BreakageFile, ContactFile, FrictionFile, MaterialFile, MoundFile, PartFile, Sides, StopFile, UnitGroupsFile,
+};
 
 /// A dry test: units on a bed without water, for a tilt, drop or settling test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,6 +24,10 @@ pub struct DryFile {
     pub dry_test: DryTestFile,
     /// Bed, mound and terrain.
     pub flume: DryFlumeFile,
+    /// The structure: solid parts, such as a mound, a toe berm or a crown wall.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub structure: Vec<PartFile>,
     /// Extent of the test area and its boundaries.
     pub domain: DryDomainFile,
     /// Gravitational acceleration [m/s2].

@@ -15,6 +15,7 @@ mod numerics;
 mod objects;
 mod output;
 mod reference;
+mod structure;
 mod sweep;
 mod wave_source;
 mod waves;
@@ -39,6 +40,7 @@ pub use output::{AtRestFile, FluidField, OutputFile, StopFile};
 pub use reference::{ReferenceFile, ReferenceWaveFile, ReferenceWaveKind, SeriesFile, SeriesRole};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+pub use structure::{PartFile, PartStlFile};
 pub use sweep::{Combine, NormalFile, RandomFile, SweepFile, VaryFile};
 pub use wave_source::{ExternalWaveFile, OpenfoamFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile};
 pub use waves::{
@@ -79,6 +81,10 @@ pub struct CaseFile {
     // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(default, skip_serializing_if = "WavemakerFile::is_default")]
     pub wavemaker: WavemakerFile,
+    /// The structure: solid parts, such as a mound, a toe berm, a crown wall or a caisson.
+    // Left out of the serialized case at its default, so that cases without this key keep their hash.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub structure: Vec<PartFile>,
     /// The armour units, one group or a list of groups. Leave this key out for a flume without units.
     #[serde(default)]
     pub units: Option<UnitGroupsFile>,

@@ -1,8 +1,10 @@
 //! The validated flume: bed, mound and still water level.
 
+use super::part::Part;
 use crate::case::file::{FlumeFile, MoundFile, ShorewardEndFile};
 use crate::case::reading::check::{Checker, as_text, at_least, lower_limit, more_than};
 use crate::geometry::profile::Profile;
+use crate::rigid::Cover;
 use crate::waves::flume_model::layered::{Friction, RightEnd};
 
 /// Largest allowed coordinate [m]. Larger values are probably typing errors.
@@ -15,7 +17,7 @@ const MOST_BED_POINTS: usize = 100_000;
 /// Bed, mound and still water of the whole flume; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flume {
-    /// Ground: the bed with the mound.
+    /// Ground: the bed with the mound and the parts of the structure that lie on it.
     pub profile: Profile,
     /// Bed without the mound.
     pub bed: Profile,
@@ -23,6 +25,10 @@ pub struct Flume {
     pub still_water_level: f64,
     /// The mound, if any.
     pub mound: Option<Mound>,
+    /// Parts of the structure, and obstacles.
+    pub parts: Vec<Part>,
+    /// Materials of mound and parts on the profile.
+    pub covers: Vec<Cover>,
     /// Material of bed and mound, an index into `Case::materials`.
     pub material: Option<usize>,
     /// Number of layers of the flume model.
@@ -64,8 +70,8 @@ impl Flume {
     }
 }
 
-/// Validates the flume; `material` is the index of the material of bed and mound.
-pub fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Checker) -> Option<Flume> {
+/// Validates the flume; `materials` are the indices of the materials of bed and mound.
+pub fn validate(file: &FlumeFile, materials: [Option<usize>; 2], check: &mut Checker) -> Option<Flume> {
     let before = check.count();
     validate_bed(&file.bed_m, check);
     check.number(
@@ -97,7 +103,10 @@ pub fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Checker) 
     };
     let friction = file.manning_s_m13.map_or(Friction::None, |n_s_m13| Friction::Manning { n_s_m13 });
     let (still_water_level, layers, cell) = (file.still_water_level_m, file.layers as usize, file.cell_m);
-    Some(Flume { profile, bed, still_water_level, mound, material, layers, cell, friction, right_end })
+    let [material, of_mound] = materials;
+    let cover = mound.zip(of_mound).map(|(Mound { toe_x, .. }, material)| Cover { x: toe_x, material });
+    let (parts, covers) = (Vec::new(), cover.into_iter().collect());
+    Some(Flume { profile, bed, still_water_level, mound, parts, covers, material, layers, cell, friction, right_end })
 }
 
 fn validate_model(file: &FlumeFile, check: &mut Checker) {

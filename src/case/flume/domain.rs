@@ -1,13 +1,11 @@
 //! The validated particle domain.
 
 use super::bed::Flume;
-use super::obstacles;
 use super::regions::{self, Region};
 use super::site::Site;
 use super::zones::{self, DampingZone, RelaxationZone};
 use crate::case::file::{DomainFile, Sides, WaterFile};
 use crate::case::reading::check::{Checker, as_text, at_least, lower_limit, more_than};
-use crate::geometry::axis_box::AxisBox;
 
 /// Largest number of particles along one direction.
 const MOST_ALONG: f64 = 1e6;
@@ -45,8 +43,6 @@ pub struct Domain {
     pub damping_zone: Option<DampingZone>,
     /// Relaxation zone, which forces the water towards the velocity of the flume model, if any.
     pub relaxation_zone: Option<RelaxationZone>,
-    /// Fixed boxes in the water.
-    pub obstacles: Vec<AxisBox>,
     /// Regions of different particle spacing, the finest first; at least one.
     pub regions: Vec<Region>,
     /// For the seaward and the shoreward end, whether the water of another region continues there: the end has no wall.
@@ -82,9 +78,8 @@ impl Domain {
     /// Returns the ground and the boundaries of the area in which units stand.
     pub fn site(&self, flume: &Flume) -> Site {
         let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);
-        let mound_x = flume.mound.map(|mound| mound.toe_x);
-        let (profile, obstacles) = (flume.profile.clone(), self.obstacles.clone());
-        Site { profile, mound_x, terrain: None, obstacles, x, width, sides, top_z }
+        let (profile, covers, parts) = (flume.profile.clone(), flume.covers.clone(), flume.parts.clone());
+        Site { profile, covers, terrain: None, parts, x, width, sides, top_z }
     }
 
     /// Returns the particle spacing at x [m].
@@ -138,7 +133,6 @@ pub fn validate(
     let damping_zone = file.damping_zone.map(|zone| zones::validate_damping(&zone, file.x_m, check));
     let relaxation_zone =
         file.relaxation_zone.map(|zone| zones::validate_relaxation(&zone, file.x_m, damping_zone.as_ref(), check));
-    let obstacles = obstacles::validate(file, width, flume, check);
     let regions = regions::validate(file, width, smoothing_factor, check);
     if check.count() > before {
         return None;
@@ -161,7 +155,6 @@ pub fn validate(
         start: file.start_s.map_or(Start::AtShare(file.start_at_share), Start::At),
         damping_zone,
         relaxation_zone,
-        obstacles,
         regions,
         continues: [false; 2],
         own_x: [f64::NEG_INFINITY, f64::INFINITY],

@@ -6,14 +6,17 @@
 //! | [`domain`] | the part of the flume that is filled with particles |
 //! | [`regions`] | regions of different particle spacing |
 //! | [`zones`] | damping zone and relaxation zone |
-//! | [`obstacles`] | fixed boxes in the water |
+//! | [`part`], [`structure`] | parts of a structure, and obstacles |
+//! | [`ground`] | bed, structure and domain together |
 //! | [`terrain`] | triangulated terrain of dry tests |
 //! | [`site`] | ground and boundaries of the area in which units stand |
 
 pub mod bed;
 pub mod domain;
-mod obstacles;
+pub mod ground;
+pub mod part;
 pub mod regions;
 pub mod site;
+pub mod structure;
 pub mod terrain;
 pub mod zones;

@@ -4,11 +4,12 @@ use glam::DVec3;
 
 use super::Case;
 use super::numerics::Numerics;
-use crate::case::file::{Sides, Viscosity};
+use crate::case::file::{Sides, Viscosity, WallSlip};
 use crate::case::flume::domain::Water;
+use crate::case::flume::part::Part;
 use crate::case::flume::regions::Region;
 use crate::case::units::UnitGroup;
-use crate::geometry::{axis_box::AxisBox, profile::Profile};
+use crate::geometry::{axis_box::AxisBox, outline::polygon::Polygon, profile::Profile};
 use crate::sph::solver::time_step::viscous_limit;
 
 /// Memory per particle, including its neighbour list [bytes].
@@ -118,8 +119,19 @@ impl Case {
             let core = (obstacle.edges() - 2.0 * thickness).max(DVec3::ZERO);
             obstacle.volume() - core.element_product()
         };
-        solid += domain.obstacles.iter().map(shell).sum::<f64>();
-        let of_group = |group: &UnitGroup| group.members.len() as f64 * group.shape.volume() / group.slices;
+        solid += self.flume.parts.iter().filter_map(Part::as_box).map(shell).sum::<f64>();
+        let of_section = |polygon: &Polygon| {
+            let around: f64 = polygon.edges().map(|[a, b]| a.distance(b)).sum();
+            polygon.area().min(around * thickness) * domain.width
+        };
+        solid += self.flume.parts.iter().filter_map(Part::section).map(of_section).sum::<f64>();
+        // With inviscid walls, units that are not cuboids have particles of half the spacing.
+        let finer = |group: &UnitGroup| {
+            let is_finer = self.numerics.wall_slip == WallSlip::Inviscid && group.shape.unit().as_box().is_none();
+            if is_finer { 8.0 } else { 1.0 }
+        };
+        let of_group =
+            |group: &UnitGroup| finer(group) * group.members.len() as f64 * group.shape.volume() / group.slices;
         let unit_volume: f64 = self.units.iter().flat_map(|units| &units.groups).map(of_group).sum();
         let (fluid, boundary, units) =
             (water_area * domain.width * per_volume, solid * per_volume, unit_volume * per_volume);

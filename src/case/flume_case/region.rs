@@ -2,7 +2,9 @@
 
 use super::Case;
 use crate::case::file::{Boundary, Sides};
+use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
+use crate::case::flume::part::{Part, PartShape};
 use crate::case::flume::regions::Region;
 use crate::case::flume_case::numerics::Numerics;
 use crate::case::reading::check::{Checker, as_text};
@@ -10,7 +12,7 @@ use crate::case::units::{UnitGroup, UnitPose};
 
 impl Case {
     /// Returns the case of one region: its domain includes the buffers beyond the ends where water of other regions
-    /// continues. Only the finest region has units and obstacles.
+    /// continues. Only the finest region has units, parts and obstacles.
     pub fn of_region(&self, region: &Region) -> Self {
         let coarseness = f64::from(region.coarseness);
         let (dp, h) = (coarseness * self.domain.dp, coarseness * self.numerics.h);
@@ -27,7 +29,6 @@ impl Case {
             nx: count(x[1] - x[0]),
             ny,
             nz: ((self.domain.top_z - self.domain.bottom_z) / dp).ceil() as usize,
-            obstacles: if is_finest { self.domain.obstacles.clone() } else { Vec::new() },
             continues: region.continues,
             own_x: std::array::from_fn(
                 |end| if region.continues[end] { region.x[end] } else { self.domain.own_x[end] },
@@ -35,7 +36,9 @@ impl Case {
             ..self.domain.clone()
         };
         let units = if is_finest { self.units.clone() } else { None };
-        Self { domain, numerics: Numerics { h, ..self.numerics }, units, ..self.clone() }
+        let parts = if is_finest { self.flume.parts.clone() } else { Vec::new() };
+        let flume = Flume { parts, ..self.flume.clone() };
+        Self { flume, domain, numerics: Numerics { h, ..self.numerics }, units, ..self.clone() }
     }
 }
 
@@ -45,7 +48,7 @@ const MARGIN: f64 = 20.0;
 
 /// Checks that units and obstacles are in the finest region, and that the scheme can be used in regions.
 pub(super) fn validate_contents(case: &Case, check: &mut Checker) {
-    let (Domain { regions, dp, obstacles, .. }, numerics) = (&case.domain, &case.numerics);
+    let (Domain { regions, dp, .. }, numerics) = (&case.domain, &case.numerics);
     if regions.len() < 2 {
         return;
     }
@@ -53,7 +56,8 @@ pub(super) fn validate_contents(case: &Case, check: &mut Checker) {
     let from = if continues[0] { x[0] + MARGIN * dp } else { f64::NEG_INFINITY };
     let to = if continues[1] { x[1] - MARGIN * dp } else { f64::INFINITY };
     let given = format!("[{}, {}]", as_text(x[0]), as_text(x[1]));
-    let of_obstacles = obstacles.iter().map(|obstacle| [obstacle.low.x, obstacle.high.x]);
+    let in_water = case.flume.parts.iter().filter(|part| !matches!(part.shape, PartShape::Bed(_)));
+    let of_obstacles = in_water.map(Part::x);
     let of_units = case.units.iter().flat_map(|units| {
         let extent = |(pose, group): (&UnitPose, &UnitGroup)| {
             let tips = 0.5 * group.shape.height();
@@ -61,7 +65,9 @@ pub(super) fn validate_contents(case: &Case, check: &mut Checker) {
         };
         units.placements.iter().zip(units.group_of_each()).map(extent)
     });
-    for (what, extents) in [("obstacles", of_obstacles.collect::<Vec<_>>()), ("units", of_units.collect())] {
+    for (what, extents) in
+        [("parts of the structure and obstacles", of_obstacles.collect::<Vec<_>>()), ("units", of_units.collect())]
+    {
         let low = extents.iter().map(|extent| extent[0]).fold(f64::INFINITY, f64::min);
         let high = extents.iter().map(|extent| extent[1]).fold(f64::NEG_INFINITY, f64::max);
         if low < from || high > to {

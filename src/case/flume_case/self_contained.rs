@@ -2,6 +2,7 @@
 
 use crate::case::breakage::BreakageSettings;
 use crate::case::file::{CaseFile, ExternalWaveFile, StopFile, VelxFile, WaveFile, WaveSourceFile};
+use crate::case::flume::bed::Flume;
 use crate::case::reference::Reference;
 use crate::case::units::Units;
 use crate::case::wave::Wave;
@@ -12,6 +13,7 @@ use crate::case::wave::external_wave::ROWS_FILE;
 /// STL files, mesh and reference folder become copies. A placement file becomes poses in the case.
 pub(super) fn self_contained(
     file: &CaseFile,
+    flume: &Flume,
     wave: &Wave,
     units: Option<&Units>,
     breakage: Option<&BreakageSettings>,
@@ -22,6 +24,10 @@ pub(super) fn self_contained(
         kept.wave = WaveFile::File(ExternalWaveFile { source, celerity_m_s: wave.celerity });
         read = wave.rows_text();
     }
+    // Parts from STL files become polygons and boxes.
+    let parts = file.structure.iter().zip(&flume.parts);
+    kept.structure =
+        parts.map(|(file, part)| if file.stl.is_some() { part.entry(file) } else { file.clone() }).collect();
     kept.reference = kept.reference.as_ref().map(|_| Reference::FOLDER.to_owned());
     if let (Some(file), Some(units)) = (&mut kept.units, units) {
         units.make_self_contained(file, &mut read);

@@ -8,7 +8,7 @@ use super::reynolds;
 use super::self_contained::{self_contained, without_keys_free_at_start};
 use crate::case::breakage::{self, BreakageSettings};
 use crate::case::file::{CaseFile, Sides};
-use crate::case::flume::{bed, bed::Flume, domain, domain::Domain, site::Site};
+use crate::case::flume::{bed::Flume, domain::Domain, ground, site::Site};
 use crate::case::output::gauges::{self, Gauge};
 use crate::case::output::{files, stop, stop::Stop};
 use crate::case::reading::check::{Checker, as_text};
@@ -32,8 +32,7 @@ const MOST_PARTICLES: f64 = 1e9;
 pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker) -> Option<Case> {
     check.title(&file.title);
     let materials = materials::validate(&file.materials, &file.friction, ground_materials(file, check), check);
-    let flume = bed::validate(&file.flume, materials.ground, check);
-    let domain = domain::validate(&file.domain, flume.as_ref(), file.numerics.smoothing_factor, check);
+    let (flume, domain) = ground::validate(file, &document.name, materials.of_ground(), check);
     let fluid = numerics::validate_fluid(&file.fluid, domain.as_ref(), check);
     let stop = stop::validate(&file.stop, file.units.is_some(), check);
     let numerics = validate_numerics(file, &stop, check);
@@ -50,7 +49,7 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
     let Sections { flume, domain, .. } = sections;
     let (wave, domain) = (wave?, domain?);
     wave::refuse_relaxation_zone(domain.relaxation_zone.as_ref(), &wave, wavemaker, check);
-    let (kept, read) = self_contained(file, &wave, units.as_ref(), breakage.as_ref());
+    let (kept, read) = self_contained(file, flume.as_ref()?, &wave, units.as_ref(), breakage.as_ref());
     let text = document.stored_text(file, &kept);
     let case = Case {
         title: file.title.clone(),
@@ -86,11 +85,14 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
 
 /// Returns the names of the materials of the ground. Without units and materials, these names have no effect.
 fn ground_materials<'a>(file: &'a CaseFile, check: &mut Checker) -> GroundNames<'a> {
-    let names = GroundNames::new(file.flume.material.as_deref(), file.flume.mound.as_ref());
+    let names = GroundNames::new(file.flume.material.as_deref(), file.flume.mound.as_ref(), &file.structure);
     if file.units.is_some() || !file.materials.is_empty() {
         return names;
     }
-    for (key, name) in [("flume.material", names.bed), ("flume.mound.material", names.mound)] {
+    let of_parts = file.structure.iter().enumerate();
+    let of_parts = of_parts.map(|(index, part)| (format!("structure[{index}].material"), part.material.as_deref()));
+    let of_flume = [("flume.material", names.bed), ("flume.mound.material", names.mound)];
+    for (key, name) in of_flume.map(|(key, name)| (key.to_owned(), name)).into_iter().chain(of_parts) {
         if let Some(name) = name {
             check.warn(format!("{key} = {name:?}: has no effect without units"));
         }
@@ -132,9 +134,6 @@ impl Sections<'_> {
 
     fn gauges(&self, wavemaker: Wavemaker, units: Option<&Units>, check: &mut Checker) -> Vec<Gauge> {
         let reach = gauges::Reach::of(&self.file.wave, wavemaker);
-        if self.file.units.is_none() {
-            gauges::refuse_forces(&self.file.gauges, check);
-        }
         gauges::validate(&self.file.gauges, self.flume.as_ref(), self.domain.as_ref(), units, reach, check)
     }
 

@@ -2,14 +2,18 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::case::file::{ForceFile, GaugeFile, PointFile, Sides, WaveFile};
 use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
+use crate::case::flume::part::{Part, PartShape};
 use crate::case::reading::check::{Checker, as_text};
 use crate::case::units::Units;
 use crate::case::wave::wavemaker::Wavemaker;
+
+/// Depth inside a part at which a point still counts as on its face, divided by the particle spacing [-].
+const FLUSH: f64 = 1e-3;
 
 /// Largest number of gauges in a case.
 const MOST_GAUGES: usize = 1000;
@@ -72,6 +76,8 @@ pub enum Quantity {
     Velocity,
     /// Force [N] and moment [N m] on the units with these indices.
     Force(Range<usize>),
+    /// Force [N] and moment [N m] on the part with this index in the flume.
+    PartForce(usize),
 }
 
 /// Region in which elevation gauges are allowed.
@@ -128,11 +134,12 @@ pub fn validate(
                 (quantity, point.at_m, validate_motion(&path, point, count, check))
             }
             GaugeFile::Force(force) => {
-                let Some((members, at)) = validate_force(&path, force, units, check) else { continue };
-                (Quantity::Force(members), at, Motion::Fixed)
+                let Some((quantity, at)) = validate_force(&path, force, flume, domain, units, check) else { continue };
+                (quantity, at, Motion::Fixed)
             }
         };
-        let in_domain = matches!(quantity, Quantity::Force(_)) || (at[0] >= domain.x[0] && at[0] <= domain.x[1]);
+        let is_force = matches!(quantity, Quantity::Force(_) | Quantity::PartForce(_));
+        let in_domain = is_force || (at[0] >= domain.x[0] && at[0] <= domain.x[1]);
         gauges.push(Gauge { name: gauge_name(gauge).to_owned(), quantity, at, motion, in_domain });
     }
     gauges
@@ -188,48 +195,55 @@ fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain,
     check_inside(&format!("{path}.at_m[1]"), y, y_range(domain), "the domain's width", check);
     let range = "the range from the bed to the top of the walls";
     check_inside(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], range, check);
-    if let Some(obstacle) = domain.obstacles.iter().position(|obstacle| obstacle.contains(point.at_m.into())) {
+    let is_in = |part: &&Part| match &part.shape {
+        PartShape::Bed(_) => false,
+        PartShape::Section(polygon) => polygon.distance(DVec2::new(x, z)) < -FLUSH * domain.dp,
+        PartShape::Box(bounds) => bounds.contains(point.at_m.into()),
+    };
+    if let Some(part) = flume.parts.iter().find(is_in) {
         check.reject(
             &format!("{path}.at_m"),
             format!("[{}, {}, {}]", as_text(x), as_text(y), as_text(z)),
-            format!("outside domain.obstacles[{obstacle}]"),
-            "there is no water inside an obstacle: move the gauge to its face",
+            format!("outside {}", part.name_in_messages()),
+            "there is no water inside: move the gauge to its face",
         );
     }
 }
 
-/// Refuses gauges of forces in a case without units.
-pub fn refuse_forces(file: &[GaugeFile], check: &mut Checker) {
-    for (index, gauge) in file.iter().enumerate().filter(|(_, gauge)| matches!(gauge, GaugeFile::Force(_))) {
-        let given = format!("\"force\" ({})", gauge_name(gauge));
-        let advice = "add `units`, fixed or free, or remove the gauge";
-        check.reject(&format!("gauges[{index}].kind"), given, "another kind in a case without units", advice);
-    }
-}
-
-/// Returns the indices of the units on which a gauge measures the force, and the point about which the moment acts [m].
+/// Returns the force that a gauge measures, and the point about which its moment acts [m].
 fn validate_force(
     path: &str,
     file: &ForceFile,
+    flume: &Flume,
+    domain: &Domain,
     units: Option<&Units>,
     check: &mut Checker,
-) -> Option<(Range<usize>, [f64; 3])> {
-    // Without valid units, their own errors suffice.
-    let units = units?;
-    let Some(group) = units.groups.iter().find(|group| group.name == file.on) else {
-        let names: Vec<String> = units.groups.iter().map(|group| format!("{:?}", group.name)).collect();
-        let advice = "write the `name` of a group of units";
-        check.reject(&format!("{path}.on"), format!("{:?}", file.on), format!("one of {}", names.join(", ")), advice);
-        return None;
-    };
+) -> Option<(Quantity, [f64; 3])> {
     if let Some(axis) = file.about_m.and_then(|about| about.iter().position(|value| !value.is_finite())) {
         check.reject(&format!("{path}.about_m[{axis}]"), "not finite", "a finite number", "write a point in metres");
         return None;
     }
+    if let Some(part) = flume.parts.iter().position(|part| part.name == file.on) {
+        let middle = flume.parts[part].middle(domain.width).to_array();
+        return Some((Quantity::PartForce(part), file.about_m.unwrap_or(middle)));
+    }
+    let groups = units.map_or(&[][..], |units| &units.groups);
+    let Some(group) = groups.iter().find(|group| group.name == file.on) else {
+        let names = flume.parts.iter().map(|part| &part.name).chain(groups.iter().map(|group| &group.name));
+        let names: Vec<String> = names.map(|name| format!("{name:?}")).collect();
+        let (allowed, advice) = match names.is_empty() {
+            true => {
+                ("left out without parts and units".to_owned(), "add a `structure` or `units`, or remove the gauge")
+            }
+            false => (format!("one of {}", names.join(", ")), "write the `name` of a part or of a group of units"),
+        };
+        check.reject(&format!("{path}.on"), format!("{:?}", file.on), allowed, advice);
+        return None;
+    };
     let members = group.members.clone();
-    let centres: DVec3 = units.placements[members.clone()].iter().map(|pose| pose.centre).sum();
-    let middle = (centres / members.len().max(1) as f64).to_array();
-    Some((members, file.about_m.unwrap_or(middle)))
+    let poses = units.map_or(&[][..], |units| &units.placements[members.clone()]);
+    let middle = poses.iter().map(|pose| pose.centre).sum::<DVec3>() / members.len().max(1) as f64;
+    Some((Quantity::Force(members), file.about_m.unwrap_or(middle.to_array())))
 }
 
 fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Checker) -> Motion {

@@ -1,6 +1,7 @@
 //! Validates materials and the friction between them.
 
-use crate::case::file::{FrictionFile, MaterialFile, MoundFile};
+use crate::case::file::{FrictionFile, MaterialFile, MoundFile, PartFile};
+use crate::case::flume::ground::GroundMaterials;
 use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::case::reading::error::nearest;
 
@@ -50,6 +51,15 @@ pub struct Materials {
     pub ground: Option<usize>,
     /// Material of the mound, an index into `list`; `None` if the file names no material of its own or an unknown one.
     pub mound: Option<usize>,
+    /// Material of each part of the structure, an index into `list`; `None` if the part has that of the bed.
+    pub parts: Vec<Option<usize>>,
+}
+
+impl Materials {
+    /// Returns the materials of the ground.
+    pub fn of_ground(&self) -> GroundMaterials<'_> {
+        GroundMaterials { bed: self.ground, mound: self.mound, parts: &self.parts }
+    }
 }
 
 /// Names of the materials of the ground in a case file.
@@ -59,12 +69,14 @@ pub struct GroundNames<'a> {
     pub bed: Option<&'a str>,
     /// Material of the mound; `None` if it is that of the bed.
     pub mound: Option<&'a str>,
+    /// Parts of the structure.
+    pub parts: &'a [PartFile],
 }
 
 impl<'a> GroundNames<'a> {
     /// Collects the names of bed and mound.
-    pub fn new(bed: Option<&'a str>, mound: Option<&'a MoundFile>) -> Self {
-        Self { bed, mound: mound.and_then(|mound| mound.material.as_deref()) }
+    pub fn new(bed: Option<&'a str>, mound: Option<&'a MoundFile>, parts: &'a [PartFile]) -> Self {
+        Self { bed, mound: mound.and_then(|mound| mound.material.as_deref()), parts }
     }
 }
 
@@ -78,8 +90,12 @@ pub fn validate(
     let list = validate_materials(materials, check);
     let friction = validate_friction(friction, &list, check);
     let mound = ground.mound.and_then(|name| find(&list, name, "flume.mound.material", check));
+    let of_part = |(index, part): (usize, &PartFile)| {
+        part.material.as_ref().and_then(|name| find(&list, name, &format!("structure[{index}].material"), check))
+    };
+    let parts = ground.parts.iter().enumerate().map(of_part).collect();
     let ground = ground.bed.and_then(|name| find(&list, name, "flume.material", check));
-    Materials { list, friction, ground, mound }
+    Materials { list, friction, ground, mound, parts }
 }
 
 /// Validates the materials. The result also has entries for invalid materials, so that indices follow the file.

@@ -31,9 +31,9 @@ use self::materials::Materials;
 pub use self::pose::UnitPose;
 use self::shape::{UnitKind, UnitShape};
 use super::file::{Orientation, PoseFile, Sides, UnitGroupsFile, UnitsFile};
+use super::flume::part::Part;
 use super::flume::site::Site;
 use super::reading::check::{Checker, as_text};
-use crate::geometry::axis_box::AxisBox;
 use crate::rigid::MaterialPair;
 
 /// Largest number of units in one case.
@@ -51,8 +51,6 @@ pub struct Units {
     pub placements: Vec<UnitPose>,
     /// Material of the bed, an index into `Case::materials`.
     pub ground_material: usize,
-    /// Material of the mound, an index into `Case::materials`.
-    pub mound_material: usize,
     /// Friction and restitution of each pair of materials that can touch; indices into `Case::materials`.
     pub pairs: Vec<MaterialPair>,
 }
@@ -178,9 +176,10 @@ pub(super) fn with_ground(
     check: &mut Checker,
 ) -> Option<Units> {
     let ground_material = around.materials.ground?;
-    let mound_material = around.materials.mound.unwrap_or(ground_material);
-    let pairs = resistance::validate(&groups, [ground_material, mound_material], around, check)?;
-    Some(Units { groups, placements, ground_material, mound_material, pairs })
+    let others = [around.materials.mound].into_iter().chain(around.materials.parts.iter().copied()).flatten();
+    let ground: Vec<usize> = [ground_material].into_iter().chain(others).collect();
+    let pairs = resistance::validate(&groups, &ground, around, check)?;
+    Some(Units { groups, placements, ground_material, pairs })
 }
 
 /// Places the units of a group and appends their poses to `placements`. Returns the group with its members.
@@ -295,7 +294,7 @@ fn place(
         _ => poses::place(file, group.map_or("", |group| &group.name), around.name, shape, site, check)?,
     };
     validate_above_terrain(&placements, site, check);
-    validate_outside_obstacles(&placements, shape, site, check);
+    validate_outside_parts(&placements, shape, site, check);
     Some(if in_layer { planar::lay(placements, site, check) } else { placements })
 }
 
@@ -315,30 +314,36 @@ fn validate_above_terrain(placements: &[UnitPose], site: &Site, check: &mut Chec
     }
 }
 
-/// Largest depth of a unit inside an obstacle, divided by the height of the unit [-]: the contact forces then separate
+/// Largest depth of a unit inside a part, divided by the height of the unit [-]: the contact forces then separate
 /// them gently.
 const LARGEST_OVERLAP: f64 = 0.01;
 
-/// Refuses a unit that is inside an obstacle.
-fn validate_outside_obstacles(placements: &[UnitPose], shape: &UnitShape, site: &Site, check: &mut Checker) {
+/// Distance of a sharp corner of three perpendicular faces from its rounding, divided by the radius of the rounding:
+/// sqrt(3) - 1 [-]. Contacts see the rounding.
+const OF_ROUNDING: f64 = 0.732;
+
+/// Refuses a unit that is inside a part of the structure or an obstacle.
+fn validate_outside_parts(placements: &[UnitPose], shape: &UnitShape, site: &Site, check: &mut Checker) {
     let images = if site.sides == Sides::Periodic { vec![-1.0, 0.0, 1.0] } else { vec![0.0] };
-    let is_in = |pose: &UnitPose, obstacle: &AxisBox| {
+    let is_in = |pose: &UnitPose, part: &Part| {
         images.iter().any(|image| {
             let from = pose.centre + DVec3::Y * (image * site.width);
-            let deepest = -LARGEST_OVERLAP * shape.height();
-            shape.unit().solid().vertices().iter().any(|v| obstacle.locate(from + pose.rotation * *v).1 < deepest)
+            let rounding = shape.unit().parts().iter().map(|part| part.rounding()).fold(0.0, f64::max);
+            let deepest = -LARGEST_OVERLAP * shape.height() - OF_ROUNDING * rounding;
+            shape.unit().solid().vertices().iter().any(|v| part.distance(from + pose.rotation * *v) < deepest)
         })
     };
-    let inside = placements.iter().enumerate().find_map(|(index, pose)| {
-        Some((index, pose, site.obstacles.iter().position(|obstacle| is_in(pose, obstacle))?))
-    });
-    if let Some((index, pose, obstacle)) = inside {
+    let inside = placements
+        .iter()
+        .enumerate()
+        .find_map(|(index, pose)| Some((index, pose, site.parts.iter().find(|part| is_in(pose, part))?)));
+    if let Some((index, pose, part)) = inside {
         let [x, y, z] = pose.centre.to_array().map(as_text);
         check.reject(
             ".",
             format!("unit {} with its centre at ({x}, {y}, {z}) m", index + 1),
-            format!("outside domain.obstacles[{obstacle}]"),
-            "move the unit or the obstacle",
+            format!("outside {}", part.name_in_messages()),
+            "move one of the two",
         );
     }
 }

@@ -6,16 +6,16 @@ use crate::case::reading::check::Checker;
 use crate::rigid::{MaterialPair, Resistance};
 
 /// Returns friction and restitution of each pair of materials that can touch. `ground` lists the materials of bed and
-/// mound. Fixed units touch only units that move.
+/// structure. Fixed units touch only units that move.
 pub(super) fn validate(
     groups: &[UnitGroup],
-    ground: [usize; 2],
+    ground: &[usize],
     around: &Surroundings,
     check: &mut Checker,
 ) -> Option<Vec<MaterialPair>> {
     let mut between: Vec<[usize; 2]> = Vec::new();
     for moving in groups.iter().filter(|group| !group.is_fixed) {
-        for other in groups.iter().map(|group| group.material).chain(ground) {
+        for other in groups.iter().map(|group| group.material).chain(ground.iter().copied()) {
             let pair = [moving.material.min(other), moving.material.max(other)];
             if !between.contains(&pair) {
                 between.push(pair);

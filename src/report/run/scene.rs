@@ -5,7 +5,7 @@ use super::folder::RunFolder;
 use super::motion::Pose;
 use super::solids::{ViewDirection, coarsened, reach, shaded, silhouette};
 use super::window::{Window, label, path_point};
-use crate::output::UnitSurface;
+use crate::output::{SectionSummary, UnitSurface};
 
 /// Distance beyond the edge of the window at which outlines are no longer visible [px].
 const OUTSIDE: f64 = 5.0;
@@ -50,14 +50,23 @@ impl<'a> ImpactScene<'a> {
             )
     }
 
-    /// Draws the fixed obstacles as rectangles.
+    /// Draws the fixed obstacles as rectangles, and the parts of the structure as their sections.
     fn obstacles(&self) -> String {
         let rectangle = |[low, high]: &[[f64; 3]; 2]| {
             let [[x0, up0, _], [x1, up1, _]] = [low, high].map(|corner| self.eye.project(*corner));
             let ([left, bottom], [right, top]) = (self.window.at(x0, up0), self.window.at(x1, up1));
             format!("<path class=\"bed\" d=\"M{left:.1} {bottom:.1}V{top:.1}H{right:.1}V{bottom:.1}Z\"/>\n")
         };
-        self.run.summary.obstacles_m.iter().map(rectangle).collect()
+        let section = |section: &SectionSummary| {
+            let corner = |[x, z]: &[f64; 2]| {
+                let [x, up, _] = self.eye.project([*x, 0.0, *z]);
+                path_point(self.window.at(x, up))
+            };
+            let corners: Vec<String> = section.points_m.iter().map(corner).collect();
+            format!("<path class=\"bed\" d=\"M{}Z\"/>\n", corners.join("L"))
+        };
+        let sections = self.run.summary.sections.iter().map(section);
+        self.run.summary.obstacles_m.iter().map(rectangle).chain(sections).collect()
     }
 
     /// Draws the still water as an area from the still water level down to the lower edge of the window.

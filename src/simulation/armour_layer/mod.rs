@@ -34,6 +34,10 @@ const CHECK_INTERVAL: f64 = 1e-3;
 const ROW_TIME: [f64; 2] = [0.05, 1.0];
 /// The next row is placed when all units are slower than this: speed divided by sqrt(g H), with the unit height H [-].
 const ROW_SPEED: f64 = 0.15;
+/// Before lost units are replaced, all units are slower than this: speed divided by sqrt(g H) [-].
+const ROUND_SPEED: f64 = 0.01;
+/// Longest settling time before lost units are replaced [s].
+const ROUND_TIME: f64 = 2.0;
 /// Longest settling time after the last row [s].
 const LAST_TIME: f64 = 10.0;
 /// Units slower than this are at rest: speed divided by sqrt(g H), with the unit height H [-].
@@ -159,7 +163,7 @@ fn place_layers(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<Ar
         yard.replace_lost(layers, begin, &mut report)?;
         members.push(begin..yard.world.states().len());
     }
-    yard.settle()?;
+    yard.settle(REST_SPEED, LAST_TIME)?;
     let Yard { world, potential, .. } = yard;
     let energy = world.energy();
     let group = |(layers, members): (&Layers, Range<usize>)| {
@@ -239,12 +243,12 @@ impl Yard<'_> {
         Ok(())
     }
 
-    /// Waits until all units are at rest.
-    fn settle(&mut self) -> Result<(), PlacementError> {
+    /// Waits until all units are slower than `speed` times sqrt(g H) [-], at most for the time `longest` [s].
+    fn settle(&mut self, speed: f64, longest: f64) -> Result<(), PlacementError> {
         let height = self.job.units.tallest();
-        let slow = REST_SPEED * (self.job.gravity * height).sqrt();
+        let slow = speed * (self.job.gravity * height).sqrt();
         let begun = self.world.time();
-        while fastest(&self.world, height) > slow && self.world.time() - begun < LAST_TIME {
+        while fastest(&self.world, height) > slow && self.world.time() - begun < longest {
             advance(&mut self.world)?;
         }
         Ok(())
@@ -260,7 +264,7 @@ impl Yard<'_> {
         let wanted = self.job.count(layers);
         let mut random = SplitMix64::new(layers.armour.seed ^ REPLACEMENTS);
         for _ in 0..MOST_ROUNDS {
-            self.settle()?;
+            self.settle(ROUND_SPEED, ROUND_TIME)?;
             let on_slope = |unit: &&BodyState| is_on_slope(layers, unit);
             let stayed = self.world.states()[begin..].iter().filter(on_slope).count();
             if stayed >= wanted {

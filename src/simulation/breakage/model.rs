@@ -22,8 +22,8 @@ pub struct Model {
     pub material: Material,
     /// Contact properties of the bed.
     pub ground: Material,
-    /// x of the toes of the mound [m] and contact properties of the mound, if any.
-    pub mound: Option<([f64; 2], Material)>,
+    /// x of both ends of each part of the ground with a surface of its own [m], and its contact properties.
+    pub covers: Vec<([f64; 2], Material)>,
     /// Contact law.
     pub law: ContactLawName,
     /// Acceleration of gravity [m/s2].
@@ -56,7 +56,7 @@ impl Model {
             count: units.count(),
             material: material(group.material),
             ground: material(units.ground_material),
-            mound: site.mound_x.map(|x| (x, material(units.mound_material))),
+            covers: site.covers.iter().map(|cover| (cover.x, material(cover.material))).collect(),
             law,
             gravity,
         }
@@ -65,9 +65,11 @@ impl Model {
     /// Returns the contact properties of the surface that a unit hits.
     pub fn partner(&self, event: &ContactEvent) -> &Material {
         let within = |x: &[f64; 2]| (x[0]..=x[1]).contains(&event.point[0]);
-        match (event.partner, &self.mound) {
-            (Feature::Unit { .. }, _) => &self.material,
-            (Feature::Ground { .. }, Some((x, mound))) if within(x) => mound,
+        match event.partner {
+            Feature::Unit { .. } => &self.material,
+            Feature::Ground { .. } => {
+                self.covers.iter().rfind(|(x, _)| within(x)).map_or(&self.ground, |(_, material)| material)
+            }
             _ => &self.ground,
         }
     }

@@ -11,12 +11,12 @@ use rayon::prelude::*;
 
 use super::{Simulation, Units, wave::ends::MovingEnd};
 use crate::{
-    case::{Case, Sides, UnitGroup},
-    geometry::{axis_box::AxisBox, convex::convex_part::ConvexPart},
+    case::{Case, Part, Sides, UnitGroup},
+    geometry::{axis_box::AxisBox, convex::convex_part::ConvexPart, outline::Outline},
     rigid::{BodyState, Load},
     sph::{
         neighbours::grid::{Bins, Grid},
-        particles::{bed::Outline, water::Water},
+        particles::water::Water,
         solver::backend::{DeviceError, Surfaces},
     },
 };
@@ -98,14 +98,19 @@ fn surfaces(
     });
     Surfaces {
         min_distance: nearest,
-        outline: outline.segments().map(|[a, b]| [a.x, a.y, b.x, b.y]).collect(),
-        obstacles: case.domain.obstacles.iter().map(|obstacle| [obstacle.low, obstacle.high]).collect(),
+        outline: outline.segments().iter().map(|[a, b]| [a.x, a.y, b.x, b.y]).collect(),
+        obstacles: obstacles(case).map(|obstacle| [obstacle.low, obstacle.high]).collect(),
         bounding_spheres: bounding_spheres.collect(),
         wavemaker: ends.first().zip(rows.first()).map(|(end, rows)| {
             (end.wavemaker.rest_x_m(), end.wavemaker.row_heights_m()[0], rows.iter().map(|row| row[0]).collect())
         }),
         sides: (case.domain.sides == Sides::Walls).then_some(case.domain.width),
     }
+}
+
+/// Returns the boxes in the water.
+fn obstacles(case: &Case) -> impl Iterator<Item = &AxisBox> {
+    case.flume.parts.iter().filter_map(Part::as_box)
 }
 
 /// Returns `velocity` without its component opposite to the unit vector `normal`, if it has such a component.
@@ -133,7 +138,7 @@ pub(super) fn bins_near_surfaces(case: &Case, outline: &Outline, grid: &Grid) ->
         is_outermost
             || outline.normal_within(DVec2::new(centre.x, centre.z), reach).is_some()
             || (has_side_walls && centre.y.min(case.domain.width - centre.y) < reach)
-            || case.domain.obstacles.iter().any(|obstacle| obstacle.nearest(centre).distance(centre) < reach)
+            || obstacles(case).any(|obstacle| obstacle.nearest(centre).distance(centre) < reach)
     };
     (0..grid.bins()).into_par_iter().map(is_near).collect()
 }
@@ -179,7 +184,7 @@ fn keep_out_of_fixed_solids(
                         }
                     }
                 }
-                for obstacle in &domain.obstacles {
+                for obstacle in obstacles(case) {
                     if let Some((normal, distance)) = near_obstacle(obstacle, *position, reach) {
                         meet(normal, distance);
                     }

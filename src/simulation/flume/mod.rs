@@ -37,16 +37,18 @@ use glam::DVec3;
 
 use crate::{
     case::{Case, Gauge, Motion, UnitGroup},
-    geometry::solid::Solid,
+    geometry::{outline::Outline, solid::Solid},
     rigid::{BodyState, Load, RigidWorld},
     sph::{
         pairs::rate::Rate,
-        particles::{bed::Outline, boundary::Boundary, water::Water},
+        particles::{boundary::Boundary, water::Water},
         solver::backend::{Backend, DeviceError},
     },
     waves::flume_model::record::FlumeRecord,
 };
-use measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts};
+use measures::{
+    mean_loads::MeanLoads, part_faces::FacePoint, statistics::Statistics, water_at_impacts::WaterAtImpacts,
+};
 use regions::buffer::Buffer;
 use wave::ends::{MovingEnd, move_ends};
 
@@ -86,8 +88,10 @@ pub struct Simulation {
     pub ends: Vec<MovingEnd>,
     /// Identification number of the next water particle that an open end releases.
     next_id: u32,
-    /// Outline of bed, mound and end walls.
+    /// Outline of bed, mound, end walls and parts that are the same across the flume.
     outline: Outline,
+    /// For each part of the structure with a force gauge, points on its faces.
+    part_faces: Vec<Vec<FacePoint>>,
     /// For each bin, whether its particles can be near the outline, side walls or obstacles.
     bins_near_surfaces: Vec<bool>,
     /// Box that no particle may leave [m].

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::{
     Simulation, Units,
     impermeable::bins_near_surfaces,
-    measures::statistics::Statistics,
+    measures::{part_faces::part_faces, statistics::Statistics},
     regions::buffer::Buffer,
     scheme::{parameters, tait},
     unit_setup::{clear_units, set_up_units, unit_in_place},
@@ -18,13 +18,13 @@ use super::{
     },
 };
 use crate::{
-    case::{self, Case, Region},
-    geometry::profile::Profile,
+    case::{self, Case, Part, PartShape, Region},
+    geometry::{axis_box::AxisBox, outline::Outline, profile::Profile},
     rigid::RigidError,
     sph::{
         device::Device,
         particles::{
-            bed::{Across, Outline, outline_particles, side_wall_particles},
+            bed::{Across, outline_particles, side_wall_particles},
             boundary::{Boundary, BoundaryParticle},
             fill::{Basin, clear_solid},
             obstacle::{box_particles, cover},
@@ -161,8 +161,8 @@ impl Simulation {
             case.fluid.rho0,
         );
         let mut water = fill(&case, &across, flume.as_deref(), start);
-        for obstacle in &case.domain.obstacles {
-            clear_solid(&mut water, case.domain.dp, |point| obstacle.locate(point));
+        for part in &case.flume.parts {
+            clear_part(&mut water, part, &outline, case.domain.dp);
         }
         if let Some(units) = &units {
             clear_units(&mut water, units, &case);
@@ -178,6 +178,7 @@ impl Simulation {
         let solver = device.solver(parameters(&case), [low, high], allowed)?;
         let mut simulation = Self {
             bins_near_surfaces: bins_near_surfaces(&case, &outline, solver.grid()),
+            part_faces: part_faces(&case, &outline),
             solver,
             statistics: Statistics::new(count),
             bounds: allowed,
@@ -220,7 +221,7 @@ fn check_travel(case: &Case, wavemaker: &Wavemaker) -> Result<(), SetupError> {
         let before_crest = case.flume.profile.points().iter().rfind(|point| point[0] < mound.crest_x[0]);
         before_crest.map_or(mound.crest_x[0], |point| point[0])
     };
-    let toes = case.flume.mound.iter().map(toe_of).chain(case.domain.obstacles.iter().map(|obstacle| obstacle.low.x));
+    let toes = case.flume.mound.iter().map(toe_of).chain(in_water(case).map(|part| part.x()[0]));
     let toe = toes.fold(f64::INFINITY, f64::min);
     let travel = wavemaker.max_shoreward_displacement_m();
     if place + travel < toe { Ok(()) } else { Err(SetupError::WavemakerReachesMound { place, travel, toe }) }
@@ -258,8 +259,8 @@ fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DV
     [end(from)].into_iter().chain(points).chain([end(to)])
 }
 
-/// Returns the outline of bed, mound and end walls. A moving end, or water of another region, replaces the wall, and
-/// the bed continues below it; for `reach` see [`reach_of`].
+/// Returns the outline of bed, mound, end walls and parts that are the same across the flume. A moving end, or water of
+/// another region, replaces the wall, and the bed continues below it; for `reach` see [`reach_of`].
 fn outline(case: &Case, reach: [Option<f64>; 2]) -> Outline {
     let ([x0, x1], top) = (case.domain.x, case.domain.top_z);
     let thickness = case.numerics.boundary_layers as f64 * case.domain.dp;
@@ -272,7 +273,34 @@ fn outline(case: &Case, reach: [Option<f64>; 2]) -> Outline {
     if reach[1].is_none() {
         points.push(DVec2::new(x1, top));
     }
-    Outline::new(points)
+    case.flume.parts.iter().filter_map(Part::section).fold(Outline::new(&points), |outline, part| outline.with(part))
+}
+
+/// Returns the parts that are not part of the bed profile.
+fn in_water(case: &Case) -> impl Iterator<Item = &Part> {
+    case.flume.parts.iter().filter(|part| !matches!(part.shape, PartShape::Bed(_)))
+}
+
+/// Removes the water inside a part and moves other water away from it; `outline` is the outline of all sections.
+fn clear_part(water: &mut Water, part: &Part, outline: &Outline, dp: f64) {
+    match &part.shape {
+        PartShape::Bed(_) => (),
+        PartShape::Box(bounds) => clear_solid(water, dp, |point| bounds.locate(point)),
+        PartShape::Section(polygon) => {
+            let [low, high] = polygon.bounds();
+            clear_solid(water, dp, |point| {
+                let at = DVec2::new(point.x, point.z);
+                if at.distance(at.clamp(low, high)) > dp {
+                    return (point, f64::INFINITY);
+                }
+                // Inside the part, the nearest surface is that of the whole outline, without the faces that touch.
+                let inside = polygon.contains(at);
+                let nearest = if inside { outline.nearest(at) } else { polygon.nearest(at) };
+                let distance = nearest.distance(at);
+                (DVec3::new(nearest.x, point.y, nearest.y), if inside { -distance } else { distance })
+            });
+        }
+    }
 }
 
 /// Returns the boundary particles of bed, mound, walls and obstacles. The side walls extend beyond the ends of the
@@ -284,12 +312,18 @@ fn fixed_particles(case: &Case, outline: &Outline, across: &Across, reach: [Opti
     let (top, at_rest) = (|_: f64| domain.top_z, |_: f64, _: f64| DVec2::ZERO);
     let mut sides = basin(case, across, &bed, &top, &at_rest);
     sides.x = [domain.x[0] - reach[0].unwrap_or(0.0), domain.x[1] + reach[1].unwrap_or(0.0)];
-    particles.extend(side_wall_particles(&sides.side_section(domain.top_z), across, layers));
-    for obstacle in &domain.obstacles {
+    let mut section = sides.side_section(domain.top_z);
+    if case.flume.parts.iter().any(|part| part.section().is_some()) {
+        // Behind the sides of a part, the outline has its own particles.
+        section.retain(|(at, _)| !outline.is_solid(*at));
+    }
+    particles.extend(side_wall_particles(&section, across, layers));
+    let obstacles: Vec<&AxisBox> = case.flume.parts.iter().filter_map(Part::as_box).collect();
+    for obstacle in &obstacles {
         cover(&mut particles, obstacle);
     }
     let thickness = f64::from(layers) * domain.dp;
-    for obstacle in &domain.obstacles {
+    for obstacle in &obstacles {
         let solid = box_particles(obstacle, domain.dp, thickness).into_iter();
         // On a slope, a corner of the obstacle can be below the bed, where the bed already has particles.
         particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x)));

@@ -250,7 +250,7 @@ impl PreparedStep<'_> {
     /// if a unit has reached the end of the finest region, or if the device is lost.
     pub fn finish(self) -> Result<(), Failure> {
         let (simulation, dt) = (self.simulation, self.dt);
-        simulation.sum_gauge_pressures(dt);
+        simulation.sum_gauge_values(dt);
         if simulation.coarse.is_empty() {
             return simulation.advance(dt);
         }

@@ -10,6 +10,8 @@
 use glam::{DVec2, DVec3};
 
 use super::boundary::BoundaryParticle;
+use crate::geometry::outline::Outline;
+use crate::geometry::outline::segments::left_normal;
 use crate::sph::terms::wall_slip::Mirroring;
 
 /// Tolerance for rounding errors of the distance from the outline, divided by the depth behind the outline [-]. Pieces
@@ -31,131 +33,82 @@ const FLANK_ANGLE: f64 = 0.245;
 /// Number of bisection steps with which the end of a stretch is located. They reduce the error to 1e-7 dp.
 const BISECTIONS: u32 = 20;
 
-/// The outline of bed and walls in x and z. Seen along the outline, the water lies on the left.
-#[derive(Debug, Clone)]
-pub struct Outline {
-    points: Vec<DVec2>,
+/// Returns true if a point of the outline is nearer than `reach` [m] to a convex edge.
+fn is_at_edge(outline: &Outline, point: DVec2, reach: f64) -> bool {
+    outline.corners().any(|[before, after]| {
+        let turn = left_normal(&before).angle_to(left_normal(&after));
+        turn < -EDGE_TURN && after[0].distance(point) < reach
+    })
 }
 
-impl Outline {
-    /// Creates the outline through `points` [m].
-    pub fn new(points: Vec<DVec2>) -> Self {
-        Self { points }
-    }
-
-    /// Returns the two end points of each straight segment.
-    pub fn segments(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
-        self.points.windows(2).map(|segment| [segment[0], segment[1]])
-    }
-
-    /// Returns the point of the outline nearest to `point`.
-    pub fn nearest(&self, point: DVec2) -> DVec2 {
-        let candidates = self.points.windows(2).map(|segment| {
-            let along = segment[1] - segment[0];
-            let t = ((point - segment[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            segment[0] + t * along
-        });
-        candidates
-            .min_by(|a, b| a.distance_squared(point).total_cmp(&b.distance_squared(point)))
-            .expect("an outline has at least one segment")
-    }
-
-    /// Returns the unit normal, directed into the water, at the outline point nearest to `point`, and the distance to
-    /// this point [m], negative behind the outline. Returns `None` if the distance is `max_distance` [m] or more.
-    pub fn normal_within(&self, point: DVec2, max_distance: f64) -> Option<(DVec2, f64)> {
-        let is_far = |segment: &[DVec2]| {
-            let normal = left_normal(segment);
-            // True if the point lies in front of the line through this segment, further away than `max_distance`.
-            (point - segment[0]).dot(normal) > max_distance
-        };
-        if self.points.windows(2).all(is_far) {
-            return None;
+/// Returns points about `dp` [m] apart in all layers, (k + 1/2) dp behind the outline for k < `layers`. Each point
+/// is returned with the length of the piece of the layer that it represents [m].
+fn layers_behind(outline: &Outline, dp: f64, layers: u32) -> Vec<(DVec2, f64)> {
+    let mut all = Vec::new();
+    for depth in (0..layers).map(|k| (f64::from(k) + 0.5) * dp) {
+        for segment in outline.segments() {
+            let (length, behind) = (segment[0].distance(segment[1]), -left_normal(segment) * depth);
+            divide(outline, depth, dp, length, |s| segment[0].lerp(segment[1], s / length) + behind, &mut all);
         }
-        let mut best: Option<(f64, DVec2)> = None;
-        for segment in self.points.windows(2) {
-            let along = segment[1] - segment[0];
-            let t = ((point - segment[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            let offset = point - (segment[0] + t * along);
-            // If the nearest point is the corner of two segments, the first segment decides.
-            let side = offset.dot(left_normal(segment));
-            let signed = if side < 0.0 { -offset.length() } else { offset.length() };
-            if best.is_none_or(|(nearest, _)| signed.abs() < f64::abs(nearest) - 1e-12) {
-                best = Some((signed, left_normal(segment)));
-            }
-        }
-        best.filter(|(signed, _)| *signed < max_distance).map(|(signed, normal)| (normal, signed))
-    }
-
-    /// Returns true if a point of the outline is nearer than `reach` [m] to a convex edge.
-    fn is_at_edge(&self, point: DVec2, reach: f64) -> bool {
-        self.points.windows(3).any(|corner| {
-            let turn = left_normal(&corner[0..2]).angle_to(left_normal(&corner[1..3]));
-            turn < -EDGE_TURN && corner[1].distance(point) < reach
-        })
-    }
-
-    /// Returns points about `dp` [m] apart in all layers, (k + 1/2) dp behind the outline for k < `layers`. Each point
-    /// is returned with the length of the piece of the layer that it represents [m].
-    fn layers(&self, dp: f64, layers: u32) -> Vec<(DVec2, f64)> {
-        let mut all = Vec::new();
-        for depth in (0..layers).map(|k| (f64::from(k) + 0.5) * dp) {
-            for segment in self.points.windows(2) {
-                let (length, behind) = (segment[0].distance(segment[1]), -left_normal(segment) * depth);
-                self.divide(depth, dp, length, |s| segment[0].lerp(segment[1], s / length) + behind, &mut all);
-            }
-            for corner in self.points.windows(3) {
-                let (before, after) = (left_normal(&corner[0..2]), left_normal(&corner[1..3]));
-                // Behind a convex corner the two parallels intersect, so there is no arc.
-                let length = before.angle_to(after).max(0.0) * depth;
-                let arc = |s: f64| corner[1] - DVec2::from_angle(s / depth).rotate(before) * depth;
-                self.divide(depth, dp, length, arc, &mut all);
-            }
-        }
-        all
-    }
-
-    /// Divides the stretches of a parallel into equal pieces about `dp` [m] long. Appends the midpoint and the length
-    /// of each piece [m] to `all`. The parallel is `length` [m] long and lies `depth` [m] behind the outline.
-    /// `point_at` returns the point of the parallel at a given distance from its start [m].
-    ///
-    /// The sum of the lengths must equal the length of the layer exactly, also at edges, because sum_b V_b grad W_ab
-    /// vanishes only if the volumes fill the space behind the surface. In a trial, a particle at the edge of a 45
-    /// degree wedge was either kept whole or removed. The area error was dp^2 / 2 per layer and flank. Water above the
-    /// apex was accelerated away with 2.5 g, and water at the toes was accelerated towards the bed with 1 g.
-    fn divide(&self, depth: f64, dp: f64, length: f64, point_at: impl Fn(f64) -> DVec2, all: &mut Vec<(DVec2, f64)>) {
-        for [from, to] in self.stretches(depth, dp, length, &point_at) {
-            let count = ((to - from) / dp).round().max(1.0);
-            let part = (to - from) / count;
-            if part > ROUNDING * dp {
-                all.extend((0..count as u32).map(|i| (point_at(from + (f64::from(i) + 0.5) * part), part)));
-            }
+        for [first, second] in outline.corners() {
+            let (before, after) = (left_normal(&first), left_normal(&second));
+            // Behind a convex corner the two parallels intersect, so there is no arc.
+            let length = before.angle_to(after).max(0.0) * depth;
+            let arc = |s: f64| second[0] - DVec2::from_angle(s / depth).rotate(before) * depth;
+            divide(outline, depth, dp, length, arc, &mut all);
         }
     }
+    all
+}
 
-    /// Returns start and end of each stretch of a parallel, as distances from the start of the parallel [m]. On a
-    /// stretch, no point is nearer to the outline than `depth` [m].
-    fn stretches(&self, depth: f64, dp: f64, length: f64, point_at: &impl Fn(f64) -> DVec2) -> Vec<[f64; 2]> {
-        let is_in_layer = |s: f64| {
-            let point = point_at(s);
-            self.nearest(point).distance(point) >= depth * (1.0 - ROUNDING)
-        };
-        let steps = (length / (CHECK_SPACING * dp)).ceil() as u32;
-        let mut stretches = Vec::new();
-        let (mut last, mut start) = (0.0, is_in_layer(0.0).then_some(0.0));
-        for s in (1..=steps).map(|i| length * f64::from(i) / f64::from(steps)) {
-            match (start, is_in_layer(s)) {
-                (None, true) => start = Some(find_change(s, last, is_in_layer)),
-                (Some(from), false) => {
-                    stretches.push([from, find_change(last, s, is_in_layer)]);
-                    start = None;
-                }
-                _ => {}
-            }
-            last = s;
+/// Divides the stretches of a parallel into equal pieces about `dp` [m] long. Appends the midpoint and the length
+/// of each piece [m] to `all`. The parallel is `length` [m] long and lies `depth` [m] behind the outline.
+/// `point_at` returns the point of the parallel at a given distance from its start [m].
+///
+/// The sum of the lengths must equal the length of the layer exactly, also at edges, because sum_b V_b grad W_ab
+/// vanishes only if the volumes fill the space behind the surface. In a trial, a particle at the edge of a 45
+/// degree wedge was either kept whole or removed. The area error was dp^2 / 2 per layer and flank. Water above the
+/// apex was accelerated away with 2.5 g, and water at the toes was accelerated towards the bed with 1 g.
+fn divide(
+    outline: &Outline,
+    depth: f64,
+    dp: f64,
+    length: f64,
+    point_at: impl Fn(f64) -> DVec2,
+    all: &mut Vec<(DVec2, f64)>,
+) {
+    for [from, to] in stretches(outline, depth, dp, length, &point_at) {
+        let count = ((to - from) / dp).round().max(1.0);
+        let part = (to - from) / count;
+        if part > ROUNDING * dp {
+            all.extend((0..count as u32).map(|i| (point_at(from + (f64::from(i) + 0.5) * part), part)));
         }
-        stretches.extend(start.map(|from| [from, length]));
-        stretches
     }
+}
+
+/// Returns start and end of each stretch of a parallel, as distances from the start of the parallel [m]. On a
+/// stretch, no point is nearer to the outline than `depth` [m].
+fn stretches(outline: &Outline, depth: f64, dp: f64, length: f64, point_at: &impl Fn(f64) -> DVec2) -> Vec<[f64; 2]> {
+    let is_in_layer = |s: f64| {
+        let point = point_at(s);
+        outline.nearest(point).distance(point) >= depth * (1.0 - ROUNDING)
+    };
+    let steps = (length / (CHECK_SPACING * dp)).ceil() as u32;
+    let mut stretches = Vec::new();
+    let (mut last, mut start) = (0.0, is_in_layer(0.0).then_some(0.0));
+    for s in (1..=steps).map(|i| length * f64::from(i) / f64::from(steps)) {
+        match (start, is_in_layer(s)) {
+            (None, true) => start = Some(find_change(s, last, is_in_layer)),
+            (Some(from), false) => {
+                stretches.push([from, find_change(last, s, is_in_layer)]);
+                start = None;
+            }
+            _ => {}
+        }
+        last = s;
+    }
+    stretches.extend(start.map(|from| [from, length]));
+    stretches
 }
 
 /// Finds by bisection the position where a condition changes. The condition is true at `inside` and false at `outside`.
@@ -169,11 +122,6 @@ fn find_change(mut inside: f64, mut outside: f64, holds: impl Fn(f64) -> bool) -
         }
     }
     inside
-}
-
-/// Returns the unit normal of a segment that points to its left side, where the water lies.
-fn left_normal(segment: &[DVec2]) -> DVec2 {
-    (segment[1] - segment[0]).normalize().perp()
 }
 
 /// Arrangement of the particles across the flume.
@@ -217,7 +165,7 @@ pub fn outline_particles(
     layers: u32,
     reach: f64,
 ) -> Vec<BoundaryParticle> {
-    let section = outline.layers(dp, layers);
+    let section = layers_behind(outline, dp, layers);
     let mut particles = Vec::with_capacity(section.len() * across.count as usize);
     for (point, length) in section {
         let nearest = outline.nearest(point);
@@ -225,7 +173,7 @@ pub fn outline_particles(
         let upright = to_outline.normalize_or_zero().y.abs();
         let on_flank = (FLANK_ANGLE.sin()..FLANK_ANGLE.cos()).contains(&upright);
         let mirroring =
-            if on_flank || outline.is_at_edge(nearest, reach) { Mirroring::Normal } else { Mirroring::Full };
+            if on_flank || is_at_edge(outline, nearest, reach) { Mirroring::Normal } else { Mirroring::Full };
         for y in across.rows(layers) {
             particles.push(BoundaryParticle {
                 position: DVec3::new(point.x, y, point.y),
@@ -267,13 +215,13 @@ mod tests {
 
     fn tank_with_mound() -> Outline {
         let points = [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [1.2, 0.1], [1.5, 0.1], [1.7, 0.0], [3.0, 0.0], [3.0, 1.0]];
-        Outline::new(points.map(DVec2::from_array).to_vec())
+        Outline::new(&points.map(DVec2::from_array))
     }
 
     #[test]
     fn layers_keep_their_distance_to_the_surface() {
         let (outline, dp) = (tank_with_mound(), 0.02);
-        for (point, _) in outline.layers(dp, 3) {
+        for (point, _) in layers_behind(&outline, dp, 3) {
             let layers = outline.nearest(point).distance(point) / dp - 0.5;
             // Limit 1e-5: the distance of a point to the outline has a tolerance of 1e-6 of its depth.
             assert!((layers - layers.round()).abs() < 1e-5, "{point} {layers}");
@@ -283,12 +231,12 @@ mod tests {
     #[test]
     fn layers_fill_the_space_behind_the_surface() {
         let dp = 0.02;
-        let toe = Outline::new([[0.0, 0.0], [1.0, 0.0], [1.3, 0.3]].map(DVec2::from_array).to_vec());
-        let apex = Outline::new([[0.0, 0.0], [0.3, 0.3], [0.6, 0.0]].map(DVec2::from_array).to_vec());
+        let toe = Outline::new(&[[0.0, 0.0], [1.0, 0.0], [1.3, 0.3]].map(DVec2::from_array));
+        let apex = Outline::new(&[[0.0, 0.0], [0.3, 0.3], [0.6, 0.0]].map(DVec2::from_array));
         for outline in [tank_with_mound(), toe, apex] {
-            let area: f64 = outline.layers(dp, 3).iter().map(|(_, length)| length * dp).sum();
-            let length: f64 = outline.points.windows(2).map(|p| p[0].distance(p[1])).sum();
-            let turns = outline.points.windows(3).map(|p| left_normal(&p[0..2]).angle_to(left_normal(&p[1..3])));
+            let area: f64 = layers_behind(&outline, dp, 3).iter().map(|(_, length)| length * dp).sum();
+            let length: f64 = outline.segments().iter().map(|[a, b]| a.distance(*b)).sum();
+            let turns = outline.corners().map(|[before, after]| left_normal(&before).angle_to(left_normal(&after)));
             // `exact` is the area of layers that reach the depth d behind the outline. A concave corner that turns by
             // the angle t adds t d^2 / 2 to length times d, and a convex corner removes tan(t / 2) d^2.
             let at_corners: f64 = turns.map(|t| if t > 0.0 { 0.5 * t } else { (0.5 * t).tan() }).sum();
@@ -304,7 +252,7 @@ mod tests {
     fn free_slip_is_allowed_on_flat_beds_and_walls_but_not_at_edges_and_flanks() {
         // The outline is a quay with an edge at (1, 0.5), and with concave corners at its foot and at the end walls.
         let quay = [[0.0, 1.0], [0.0, 0.5], [1.0, 0.5], [1.0, 0.0], [3.0, 0.0], [3.0, 1.0]];
-        let outline = Outline::new(quay.map(DVec2::from_array).to_vec());
+        let outline = Outline::new(&quay.map(DVec2::from_array));
         let across = Across { width: 0.02, count: 1, walls: false };
         let reach = 0.083;
         for particle in outline_particles(&outline, &across, 0.02, 3, reach) {
@@ -314,7 +262,7 @@ mod tests {
             let behind_corner = particle.to_surface.x.abs().min(particle.to_surface.z.abs()) > 1e-9;
             assert!(behind_corner || (particle.mirroring == Mirroring::Full) == (from_edge >= reach), "{foot}");
         }
-        let flank = Outline::new([[0.0, 0.0], [1.0, 0.5], [9.0, 1.5]].map(DVec2::from_array).to_vec());
+        let flank = Outline::new(&[[0.0, 0.0], [1.0, 0.5], [9.0, 1.5]].map(DVec2::from_array));
         for particle in outline_particles(&flank, &across, 0.02, 3, reach) {
             // There is no free slip on the 1:2 slope (x < 1) and free slip on the 1:8 slope (x > 1). Particles near
             // x = 1 are not checked, because the layers of both slopes meet there.

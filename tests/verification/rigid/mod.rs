@@ -65,7 +65,7 @@ fn pair(other: usize, resistance: Resistance) -> MaterialPair {
 }
 
 fn ground(profile: Profile) -> Ground {
-    Ground { profile, material: GROUND, cover: None }
+    Ground { profile, material: GROUND, covers: Vec::new() }
 }
 
 fn tetrapod() -> ArmourUnit {

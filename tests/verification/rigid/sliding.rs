@@ -76,7 +76,7 @@ fn a_unit_that_slides_from_the_mound_to_the_bed_is_slowed_by_the_friction_of_eac
     let mound = setup.materials.len();
     setup.materials.push(MORTAR);
     setup.pairs.push(pair(mound, 0.2.into()));
-    setup.ground = Some(Ground { cover: Some(Cover { x: [-5.0, 0.0], material: mound }), ..ground(profile) });
+    setup.ground = Some(Ground { covers: vec![Cover { x: [-5.0, 0.0], material: mound }], ..ground(profile) });
     let mut world = RigidWorld::new(setup).unwrap();
     // Until 0.1 s, all feet are at x < 0; from 0.32 s to 0.4 s, they are at x > 0. At the start, the unit rocks.
     let mut deceleration = |start: f64, end: f64| {

@@ -1,4 +1,4 @@
-//! Bed, mound and obstacles of the film.
+//! Bed, mound, obstacles and structure of the film.
 
 use super::super::folder::RunFolder;
 use super::super::scene::bed_in;
@@ -22,8 +22,8 @@ pub fn bed(run: &RunFolder) -> Series {
     Series::new("Bed", "#b9ae9a", 1.0, vec![extruded(&outline, below, width)])
 }
 
-/// Returns the fixed obstacles, half transparent; `None` without obstacles.
-pub fn obstacles(run: &RunFolder) -> Option<Series> {
+/// Returns obstacles and parts of the structure, half transparent; `None` without them.
+pub fn structure(run: &RunFolder) -> Option<Series> {
     let mut mesh = Mesh::default();
     for [low, high] in &run.summary.obstacles_m {
         let first = mesh.points.len() as u32;
@@ -34,7 +34,43 @@ pub fn obstacles(run: &RunFolder) -> Option<Series> {
         let triangles = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
         mesh.triangles.extend(triangles.map(|corners: [u32; 3]| corners.map(|corner| first + corner)));
     }
-    (!mesh.points.is_empty()).then(|| Series::new("Obstacles", "#8d8370", 0.45, vec![mesh]))
+    for section in &run.summary.sections {
+        add_section(&section.points_m, run.summary.domain_width_m, &mut mesh);
+    }
+    (!mesh.points.is_empty()).then(|| Series::new("Structure", "#8d8370", 0.45, vec![mesh]))
+}
+
+/// Adds the surface of a body with this section between the planes y = 0 and y = `width`. Its ends are divided into
+/// trapezoids between vertical lines through the corners.
+fn add_section(section: &[[f64; 2]], width: f64, mesh: &mut Mesh) {
+    let mut quad = |corners: [[f64; 3]; 4]| {
+        let first = mesh.points.len() as u32;
+        mesh.points.extend(corners.map(|corner| corner.map(|value| value as f32)));
+        mesh.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|triangle| triangle.map(|corner: u32| first + corner)));
+    };
+    let edges: Vec<[[f64; 2]; 2]> =
+        (0..section.len()).map(|k| [section[k], section[(k + 1) % section.len()]]).collect();
+    for [[xa, za], [xb, zb]] in &edges {
+        quad([[*xa, 0.0, *za], [*xb, 0.0, *zb], [*xb, width, *zb], [*xa, width, *za]]);
+    }
+    let mut lines: Vec<f64> = section.iter().map(|point| point[0]).collect();
+    lines.sort_by(f64::total_cmp);
+    lines.dedup();
+    for pair in lines.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        let middle = 0.5 * (from + to);
+        let is_over = |[a, b]: &&[[f64; 2]; 2]| (a[0] < middle) != (b[0] < middle);
+        let level = |[a, b]: &[[f64; 2]; 2], x: f64| a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]);
+        let mut over: Vec<[f64; 2]> =
+            edges.iter().filter(is_over).map(|edge| [level(edge, from), level(edge, to)]).collect();
+        over.sort_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1])));
+        for trapezoid in over.chunks_exact(2) {
+            let [low, high] = [trapezoid[0], trapezoid[1]];
+            for y in [0.0, width] {
+                quad([[from, y, low[0]], [to, y, low[1]], [to, y, high[1]], [from, y, high[0]]]);
+            }
+        }
+    }
 }
 
 /// Returns the surface of the body between the planes y = 0 and y = `width` below a profile: the first points of
@@ -76,5 +112,16 @@ mod tests {
         let area: f32 = mesh.triangles.iter().map(corners).map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
         assert!((area - (0.5 * (5.0 + 1.0 + 2.0 + 4.0) + 2.0 * 6.0)).abs() < 1e-5, "{area}");
         assert!(extruded(&[], 0.0, 0.5).points.is_empty());
+    }
+
+    #[test]
+    fn a_crown_wall_has_the_area_of_its_faces() {
+        // A wall of 0.2 m by 1 m with a nose of 0.1 m by 0.1 m: around it 2.6 m, area 0.21 m2.
+        let wall = [[0.0, 0.0], [0.2, 0.0], [0.2, 1.0], [-0.1, 1.0], [-0.1, 0.9], [0.0, 0.9]];
+        let mut mesh = Mesh::default();
+        add_section(&wall, 0.5, &mut mesh);
+        let corners = |t: &[u32; 3]| t.map(|corner| glam::Vec3::from_array(mesh.points[corner as usize]));
+        let area: f32 = mesh.triangles.iter().map(corners).map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
+        assert!((area - (0.5 * 2.6 + 2.0 * 0.21)).abs() < 1e-5, "{area}");
     }
 }

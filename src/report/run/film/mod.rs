@@ -30,7 +30,7 @@ pub fn film(run: &RunFolder, start_s: Option<f64>) -> Result<Option<Scene>, Outp
     };
     let mut frames = thinned(recorded.len(), MOST_FRAMES);
     let mut series = vec![bed::bed(run)];
-    series.extend(bed::obstacles(run));
+    series.extend(bed::structure(run));
     if let Some(water) = &water {
         let (of_water, chosen) = water.series(run, &frames)?;
         series.extend(of_water);

@@ -3,8 +3,9 @@
 pub mod balance;
 pub mod energy;
 pub mod extremes;
-pub mod gauge_pressures;
+pub mod gauge_means;
 pub mod mean_loads;
+pub mod part_faces;
 pub mod rest;
 pub mod statistics;
 pub mod water_at_impacts;

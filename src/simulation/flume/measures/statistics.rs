@@ -1,6 +1,6 @@
 //! Extremes and counts of a flume run that its tables do not contain.
 
-use super::{balance::Balance, gauge_pressures::GaugePressures, rest::Rest};
+use super::{balance::Balance, gauge_means::GaugeMeans, rest::Rest};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -38,8 +38,8 @@ pub struct Statistics {
     pub balance: Balance,
     /// Volume [m3] and number of particles of the water at the first row of `diagnostics.csv`.
     pub water_start: Option<(f64, u64)>,
-    /// Pressures at the gauges since the last row of `gauges.csv`.
-    pub gauge_pressures: GaugePressures,
+    /// Means of gauges since the last row of `gauges.csv`.
+    pub gauge_means: GaugeMeans,
     /// Number of water particles that open ends have released and taken.
     pub exchanged: [u64; 2],
     /// Largest Mach number: speed of the water divided by its speed of sound c0 [-].

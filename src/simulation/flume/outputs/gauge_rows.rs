@@ -22,19 +22,19 @@ pub(super) fn gauge_columns(case: &Case) -> Vec<String> {
         Quantity::Elevation => vec![columns::elevation(&gauge.name), columns::wetted_length(&gauge.name)],
         Quantity::Pressure => columns::pressure(&gauge.name).to_vec(),
         Quantity::Velocity => columns::velocity(&gauge.name).to_vec(),
-        Quantity::Force(_) => columns::force(&gauge.name).to_vec(),
+        Quantity::Force(_) | Quantity::PartForce(_) => columns::force(&gauge.name).to_vec(),
     });
     ["time_s".to_owned()].into_iter().chain(names).collect()
 }
 
 /// Returns a row of `gauges.csv`. Gauges without water have NaN, but a wetted length of zero. Gauges behind the
-/// wavemaker or less than the smoothing length in front of it have NaN. `pressures` lists the pressures of the pressure
-/// gauges [Pa], first at this time, then averaged since the last row; the second list is empty if the device does not
-/// compute means. `loads` lists the mean loads of water and contact on each unit.
-pub(super) fn gauge_row(simulation: &Simulation, pressures: [&[Option<f64>]; 2], loads: &[[Load; 2]]) -> Vec<f64> {
+/// wavemaker or less than the smoothing length in front of it have NaN. `values` lists the values of the gauges as
+/// [`Simulation::gauge_values`], first at this time, then averaged since the last row; the second list is empty if the
+/// device does not compute means. `loads` lists the mean loads of water and contact on each unit.
+pub(super) fn gauge_row(simulation: &Simulation, values: [&[Option<f64>]; 2], loads: &[[Load; 2]]) -> Vec<f64> {
     let case = &simulation.case;
     let is_between = |x: f64| simulation.is_between_moving_ends(x);
-    let mut pressure_gauge = 0;
+    let mut next = 0;
     let mut row = vec![simulation.flume_time()];
     for gauge in wet_gauges(case) {
         let at = simulation.gauge_position(gauge);
@@ -49,11 +49,16 @@ pub(super) fn gauge_row(simulation: &Simulation, pressures: [&[Option<f64>]; 2],
                 row.push(wetted.unwrap_or(f64::NAN));
             }
             Quantity::Pressure => {
-                let value = |list: &[Option<f64>]| list.get(pressure_gauge).copied().flatten().unwrap_or(f64::NAN);
-                row.extend(pressures.map(value));
-                pressure_gauge += 1;
+                let value = |list: &[Option<f64>]| list.get(next).copied().flatten().unwrap_or(f64::NAN);
+                row.extend(values.map(value));
+                next += 1;
             }
             Quantity::Velocity => row.extend(sample().map_or([f64::NAN; 3], |s| s.velocity.to_array())),
+            Quantity::PartForce(_) => {
+                let [now, means] = values.map(|list| list.get(next..next + 6));
+                row.extend(means.or(now).into_iter().flatten().map(|value| value.unwrap_or(f64::NAN)));
+                next += 6;
+            }
             Quantity::Force(members) => {
                 let Load { force, torque } = load_about(simulation, members.clone(), at, loads);
                 row.extend(force.to_array().into_iter().chain(torque.to_array()));

@@ -228,13 +228,13 @@ impl Recorder {
 
     fn record_series(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
         let (time, dt) = (now.flume_time(), now.dt());
-        let (pressures, mut mean_pressures) = (now.gauge_pressures(), now.statistics.gauge_pressures.take());
-        if mean_pressures.is_empty() && !now.is_on_gpu() {
+        let (values, mut means) = (now.gauge_values(), now.statistics.gauge_means.take());
+        if means.is_empty() && !now.is_on_gpu() {
             // No time step was made since the last row.
-            mean_pressures.clone_from(&pressures);
+            means.clone_from(&values);
         }
         let loads = now.units.as_mut().map_or_else(Vec::new, mean_loads);
-        self.gauges.append(&gauge_row(now, [&pressures, &mean_pressures], &loads))?;
+        self.gauges.append(&gauge_row(now, [&values, &means], &loads))?;
         let powers = now.powers()?;
         self.energy.append(&energy_row(now, powers))?;
         self.diagnostics.append(&now.diagnostics_row(dt, powers.divergence))?;

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use crate::simulation::flume::Simulation;
 use crate::{
-    case::{Case, Quantity, Sides, UnitGroup, Wave, Wavemaker},
+    case::{Case, Part, Quantity, Sides, UnitGroup, Wave, Wavemaker},
     output::{
         ContactSummary, EnergySummary, Execution, GaugeSummary, GroupSummary, OutputError, ParticleCounts,
-        PressureSummary, Stopped, Summary, Table, TimeStepSummary, UnitSummary, WaveSummary, columns,
+        PressureSummary, SectionSummary, Stopped, Summary, Table, TimeStepSummary, UnitSummary, WaveSummary, columns,
     },
     waves::theory::solitary::PistonTheory,
 };
@@ -50,7 +50,14 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
         domain_width_m: case.domain.width,
         side_walls: case.domain.sides == Sides::Walls,
         two_dimensional: case.domain.sides == Sides::TwoDimensional,
-        obstacles_m: case.domain.obstacles.iter().map(|o| [o.low, o.high].map(|corner| corner.to_array())).collect(),
+        obstacles_m: case
+            .flume
+            .parts
+            .iter()
+            .filter_map(Part::as_box)
+            .map(|o| [o.low, o.high].map(Into::into))
+            .collect(),
+        sections: case.flume.parts.iter().filter_map(section_of).collect(),
         steps: simulation.steps,
         simulated_s: simulation.time,
         start_s: simulation.start,
@@ -101,6 +108,11 @@ fn wave(case: &Case) -> Option<WaveSummary> {
     };
     let (kind, theory) = (kind.to_owned(), theory.to_owned());
     Some(WaveSummary { kind, theory, height_m: case.wave.height()?, period_s: case.wave.period() })
+}
+
+fn section_of(part: &Part) -> Option<SectionSummary> {
+    let points_m = part.section()?.points().iter().map(|point| point.to_array()).collect();
+    Some(SectionSummary { name: part.name.clone(), points_m })
 }
 
 fn group_of(group: &UnitGroup) -> GroupSummary {

@@ -1,21 +1,20 @@
-//! Validates fixed obstacles in the particle domain.
+//! Checks boxes: obstacles, and parts of a structure that are boxes.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::bed::Flume;
-use crate::case::file::{BoxFile, DomainFile, Sides};
+use super::Room;
+use super::sections::{NARROWEST, THINNEST};
+use crate::case::file::Sides;
+use crate::case::flume::bed::Flume;
+use crate::case::flume::part::Part;
 use crate::case::reading::check::{Checker, as_text, lower_limit, upper_limit};
 use crate::geometry::axis_box::AxisBox;
 
-/// Largest number of obstacles in one case.
-const MOST_OBSTACLES: usize = 1000;
+/// Smallest allowed edge of a box without water [m].
+const THINNEST_DRY: f64 = 1e-6;
 
-/// Smallest allowed thickness of an obstacle, divided by the particle spacing dp [-]. Water particles on opposite sides
-/// of a thinner obstacle interact with each other.
-const THINNEST: f64 = 3.0;
-
-/// Width of the narrowest gap that water can enter, divided by the particle spacing dp [-].
-const NARROWEST: f64 = 2.0;
+/// Largest number of boxes in one case.
+const MOST_BOXES: usize = 1000;
 
 /// Distance below which two faces count as touching, divided by the particle spacing dp [-].
 const FLUSH: f64 = 1e-6;
@@ -23,67 +22,85 @@ const FLUSH: f64 = 1e-6;
 /// Names of the axes in messages.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Validates the obstacles. Marks the obstacle faces that touch the ground or a wall as closed to the water. `width` is
-/// the width of the domain [m].
-pub fn validate(file: &DomainFile, width: f64, flume: &Flume, check: &mut Checker) -> Vec<AxisBox> {
-    if file.obstacles.len() > MOST_OBSTACLES {
-        check.reject(
-            "domain.obstacles",
-            file.obstacles.len(),
-            format!("at most {MOST_OBSTACLES} obstacles"),
-            "remove some obstacles",
-        );
-        return Vec::new();
+/// Checks the boxes, each with its key in the case file. Marks the faces that touch the ground or a wall as closed to
+/// the water. `width` is the width of the domain [m].
+pub(super) fn check(
+    boxes: &[(String, AxisBox)],
+    parts: &[Part],
+    flume: &Flume,
+    width: f64,
+    room: &Room,
+    check: &mut Checker,
+) -> Option<Vec<AxisBox>> {
+    let before = check.count();
+    if boxes.len() > MOST_BOXES {
+        check.reject("domain.obstacles", boxes.len(), format!("at most {MOST_BOXES} boxes"), "remove some obstacles");
+        return None;
     }
-    let mut found: Vec<AxisBox> = Vec::new();
-    for (index, obstacle) in file.obstacles.iter().enumerate() {
-        let path = format!("domain.obstacles[{index}]");
-        let Some(obstacle) = validate_one(&path, obstacle, file, width, flume, check) else { continue };
-        let too_near = found.iter().position(|other| gap(&obstacle, other) < NARROWEST * file.dp_m);
-        match too_near {
-            Some(other) => check.reject(
-                &path,
-                corners(&obstacle),
-                format!("at least {} m from domain.obstacles[{other}]", lower_limit(NARROWEST * file.dp_m)),
-                "the gap is too narrow for water: merge the two obstacles, or move one of them",
-            ),
-            None => found.push(obstacle),
+    let mut found: Vec<(&str, AxisBox)> = Vec::new();
+    for (path, bounds) in boxes {
+        let Some(bounds) = check_one(path, bounds, flume, width, room, check) else { continue };
+        let Some(dp) = room.dp else {
+            found.push((path, bounds));
+            continue;
+        };
+        let too_near = found.iter().find(|(_, other)| gap(&bounds, other) < NARROWEST * dp).map(|(path, _)| *path);
+        let section = parts.iter().find(|part| is_near_section(part, &bounds, NARROWEST * dp));
+        if let Some(other) = too_near.map(str::to_owned).or(section.map(|part| format!("{:?}", part.name))) {
+            check.reject(
+                path,
+                corners(&bounds),
+                format!("at least {} m from {other}", lower_limit(NARROWEST * dp)),
+                "the gap is too narrow for water: merge the two, or move one of them",
+            );
+        } else {
+            found.push((path, bounds));
         }
     }
-    found
+    (check.count() == before).then(|| found.into_iter().map(|(_, bounds)| bounds).collect())
 }
 
-fn validate_one(
+/// Returns true if a box is nearer than `gap` [m] to a part that is the same across the flume but not part of the bed.
+fn is_near_section(part: &Part, bounds: &AxisBox, gap: f64) -> bool {
+    let Some(polygon) = part.section() else { return false };
+    let [low, high] = [bounds.low, bounds.high].map(|corner| DVec2::new(corner.x, corner.z));
+    let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+    let nearest = |point: &DVec2| point.clamp(low, high).distance(*point);
+    corners.into_iter().any(|corner| polygon.distance(corner) < gap)
+        || polygon.points().iter().any(|point| nearest(point) < gap)
+}
+
+fn check_one(
     path: &str,
-    file: &BoxFile,
-    domain: &DomainFile,
-    width: f64,
+    bounds: &AxisBox,
     flume: &Flume,
+    width: f64,
+    room: &Room,
     check: &mut Checker,
 ) -> Option<AxisBox> {
     let before = check.count();
-    let dp = domain.dp_m;
-    let ends = [domain.x_m, [0.0, width], [f64::NEG_INFINITY, domain.top_z_m]];
-    let planar = domain.sides == Sides::TwoDimensional;
+    let dp = room.dp.unwrap_or(THINNEST_DRY / THINNEST);
+    let ends = [room.x, [0.0, width], [f64::NEG_INFINITY, room.top_z]];
+    let planar = room.sides == Sides::TwoDimensional;
     for (axis, ends) in ends.into_iter().enumerate().filter(|(axis, _)| !(planar && *axis == 1)) {
-        validate_extent(path, axis, [file.low_m[axis], file.high_m[axis]], ends, dp, check);
+        validate_extent(path, axis, [bounds.low[axis], bounds.high[axis]], ends, dp, check);
     }
     if check.count() > before {
         return None;
     }
-    let (mut low, mut high) = (DVec3::from_array(file.low_m), DVec3::from_array(file.high_m));
+    let (mut low, mut high) = (bounds.low, bounds.high);
     if planar {
         // In two dimensions, an obstacle crosses the whole particle layer, whatever its y coordinates are in the file.
         (low.y, high.y) = (0.0, width);
     }
-    let open_ends = [domain.x_m, [0.0, width]];
+    let open_ends = [room.x, [0.0, width]];
     let mut open = [[true; 2]; 3];
     for (axis, ends) in open_ends.into_iter().enumerate() {
         let gaps = [low[axis] - ends[0], ends[1] - high[axis]];
         open[axis] = gaps.map(|gap| gap > FLUSH * dp);
         validate_gaps(path, axis, gaps, dp, check);
     }
-    if domain.sides == Sides::Periodic && open[1][0] != open[1][1] {
+    if room.sides == Sides::Periodic && open[1][0] != open[1][1] {
         check.reject(
             path,
             corners(&AxisBox::free(low, high)),

@@ -1,0 +1,196 @@
+//! Reads the parts of a structure: polygons, boxes and STL surfaces.
+
+use std::path::Path;
+
+use glam::{DVec2, DVec3};
+
+use super::{Entry, Room};
+use crate::case::file::{PartFile, PartStlFile};
+use crate::case::flume::part::{Part, PartShape};
+use crate::case::reading::check::{Checker, as_text, more_than};
+use crate::geometry::axis_box::AxisBox;
+use crate::geometry::outline::polygon::Polygon;
+use crate::geometry::solid::Solid;
+use crate::geometry::stl;
+
+/// Largest number of parts in one case.
+const MOST_PARTS: usize = 1000;
+/// Largest number of corners of a polygon.
+const MOST_CORNERS: usize = 10_000;
+/// Coordinates that differ by less than this are equal, divided by the largest coordinate [-]. A binary STL file stores
+/// coordinates with 24 bits, to 6e-8 of their value.
+const SAME: f64 = 1e-6;
+
+/// Reads all parts. `materials` lists the material of each part.
+pub(super) fn read(
+    file: &[PartFile],
+    materials: &[Option<usize>],
+    room: &Room,
+    check: &mut Checker,
+) -> Option<Vec<Entry>> {
+    if file.len() > MOST_PARTS {
+        check.reject("structure", file.len(), format!("at most {MOST_PARTS} parts"), "join some parts");
+        return None;
+    }
+    let mut entries = Vec::new();
+    for (index, part) in file.iter().enumerate() {
+        let key = format!("structure[{index}]");
+        if part.name.trim().is_empty() || file[..index].iter().any(|other| other.name == part.name) {
+            let allowed = "not empty, and different from those of other parts";
+            check.reject(&format!("{key}.name"), format!("{:?}", part.name), allowed, "rename the part");
+        }
+        let material = materials.get(index).copied().flatten();
+        let shape = check.in_section(&key, |check| read_shape(part, room, check));
+        entries.push(shape.map(|shape| Entry { key, part: Part { name: part.name.clone(), shape, material } }));
+    }
+    entries.into_iter().collect()
+}
+
+fn read_shape(part: &PartFile, room: &Room, check: &mut Checker) -> Option<PartShape> {
+    match (&part.polygon_m, &part.cuboid, &part.stl) {
+        (Some(points), None, None) => read_polygon(points, check).map(PartShape::Section),
+        (None, Some(bounds), None) => Some(PartShape::Box(AxisBox::free(bounds.low_m.into(), bounds.high_m.into()))),
+        (None, None, Some(stl)) => read_stl(stl, room, check),
+        (polygon, bounds, stl) => {
+            let given =
+                [polygon.is_some(), bounds.is_some(), stl.is_some()].iter().filter(|is_given| **is_given).count();
+            let advice = "write the section as `polygon_m`, a block as `box`, any other shape as `stl`";
+            check.reject(
+                ".",
+                format!("{given} of the three shapes"),
+                "exactly one of `polygon_m`, `box` and `stl`",
+                advice,
+            );
+            None
+        }
+    }
+}
+
+fn read_polygon(points: &[[f64; 2]], check: &mut Checker) -> Option<Polygon> {
+    if points.len() > MOST_CORNERS {
+        let allowed = format!("at most {MOST_CORNERS} points");
+        check.reject(".polygon_m", format!("{} points", points.len()), allowed, "leave out points");
+        return None;
+    }
+    match Polygon::new(points) {
+        Ok(polygon) => Some(polygon),
+        Err(error) => {
+            let advice =
+                "write the corner points [x, z] in their order around the section, without repeating the first one";
+            check.reject(".polygon_m", error, "a polygon whose edges do not cross", advice);
+            None
+        }
+    }
+}
+
+fn read_stl(file: &PartStlFile, room: &Room, check: &mut Checker) -> Option<PartShape> {
+    let advice = "1 for a file in metres, 0.001 for a file in millimetres";
+    let mut is_valid = check.number(".stl.scale", file.scale, more_than(0.0).up_to(1000.0), "", advice);
+    if let Some(axis) = file.origin_m.iter().position(|value| !value.is_finite()) {
+        let path = format!(".stl.origin_m[{axis}]");
+        check.reject(&path, "not finite", "a finite number", "write a position in metres");
+        is_valid = false;
+    }
+    if !is_valid {
+        return None;
+    }
+    let path = Path::new(room.name).parent().unwrap_or(Path::new("")).join(&file.path);
+    let shown = format!("{:?}", path.display().to_string());
+    let content = match std::fs::read(&path) {
+        Ok(content) => content,
+        Err(error) => {
+            let allowed = format!("a file that can be read ({error})");
+            check.reject(".stl.path", shown, allowed, "paths are relative to the case file");
+            return None;
+        }
+    };
+    let solid = match stl::parse(&content, &path, file.scale) {
+        Ok(solid) => solid,
+        Err(error) => {
+            let advice = "write one closed surface without holes, with triangles counter-clockwise seen from outside";
+            check.reject(".stl.path", shown, format!("a closed surface ({error})"), advice);
+            return None;
+        }
+    };
+    let origin = DVec3::from_array(file.origin_m);
+    if let Some(bounds) = as_box(&solid) {
+        let AxisBox { mut low, mut high, .. } = bounds.shifted(origin);
+        // A box that continues beyond the sides ends there.
+        (low.y, high.y) = (low.y.max(0.0), high.y.min(room.width.unwrap_or(f64::INFINITY)));
+        return Some(PartShape::Box(AxisBox::free(low, high)));
+    }
+    let Some(section) = as_section(&solid, origin, room) else {
+        let [low, high] = solid.bounds().map(|corner| corner + origin);
+        let width = room.width.map_or_else(|| "the flume".to_owned(), |width| format!("y = 0 to {} m", as_text(width)));
+        let given = format!("{shown}, from y = {} to {} m", as_text(low.y), as_text(high.y));
+        let allowed = format!("a surface that is the same across {width}, or a box with edges along the axes");
+        let advice = "let the ends of the surface be plane, at y = 0 and at the width of the flume or beyond, with one \
+                      outline without holes; or write the part as several boxes";
+        check.reject(".stl.path", given, allowed, advice);
+        return None;
+    };
+    read_polygon(&section, check).map(PartShape::Section)
+}
+
+/// Returns a surface as a box with edges along the axes, if it is one.
+fn as_box(solid: &Solid) -> Option<AxisBox> {
+    let [low, high] = solid.bounds();
+    let slack = SAME * low.abs().max(high.abs()).max_element();
+    let is_corner = |v: &DVec3| {
+        (*v - v.clamp(low, high)).length() <= slack && {
+            let ends = (*v - low).abs().min((*v - high).abs());
+            ends.max_element() <= slack
+        }
+    };
+    let is_box = solid.vertices().iter().all(is_corner)
+        && (solid.volume_properties().volume / (high - low).element_product() - 1.0).abs() < 1e-3;
+    is_box.then(|| AxisBox::free(low, high))
+}
+
+/// Returns the corners [x, z] of the section of a surface that is the same across the flume [m], and has no holes.
+fn as_section(solid: &Solid, origin: DVec3, room: &Room) -> Option<Vec<[f64; 2]>> {
+    let [low, high] = solid.bounds();
+    let slack = SAME * low.abs().max(high.abs()).max(origin.abs()).max_element();
+    let reaches = room.width.is_none_or(|width| low.y + origin.y <= slack && high.y + origin.y >= width - slack);
+    let is_on = |v: u32, y: f64| (solid.vertices()[v as usize].y - y).abs() <= slack;
+    if !reaches || !(0..solid.vertices().len() as u32).all(|v| is_on(v, low.y) || is_on(v, high.y)) {
+        return None;
+    }
+    // The faces at the lower end, and their edges that belong to one of these faces only.
+    let at_end = solid.triangles().iter().filter(|triangle| triangle.iter().all(|v| is_on(*v, low.y)));
+    let mut border: Vec<[u32; 2]> = Vec::new();
+    for [a, b, c] in at_end {
+        for edge in [[*a, *b], [*b, *c], [*c, *a]] {
+            match border.iter().position(|other| *other == [edge[1], edge[0]]) {
+                Some(twin) => _ = border.swap_remove(twin),
+                None => border.push(edge),
+            }
+        }
+    }
+    let first = *border.first()?;
+    let (mut line, mut next) = (Vec::new(), first);
+    loop {
+        line.push(next[0]);
+        next = *border.iter().find(|edge| edge[0] == next[1])?;
+        if next == first || line.len() > border.len() {
+            break;
+        }
+    }
+    let point = |v: u32| {
+        let DVec3 { x, z, .. } = solid.vertices()[v as usize] + origin;
+        DVec2::new(x, z)
+    };
+    let corners: Vec<DVec2> = line.iter().map(|v| point(*v)).collect();
+    // Points within straight edges are left out.
+    let count = corners.len();
+    let is_corner = |index: &usize| {
+        let [before, at, after] = [count - 1, 0, 1].map(|step| corners[(index + step) % count]);
+        let (one, other) = (at - before, after - at);
+        one.perp_dot(other).abs() > SAME * (one.length() * other.length() + slack * slack)
+    };
+    let section: Vec<[f64; 2]> = (0..count).filter(is_corner).map(|index| corners[index].to_array()).collect();
+    // The volume of a body that is the same across the flume is the area of its section times its width.
+    let volume = Polygon::new(&section).ok()?.area() * (high.y - low.y);
+    let is_uniform = (solid.volume_properties().volume / volume - 1.0).abs() < 1e-3;
+    (line.len() == border.len() && is_uniform).then_some(section)
+}
