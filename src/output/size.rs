@@ -17,8 +17,8 @@ const BYTES_PER_VERTEX: f64 = 16.0;
 const BYTES_PER_TRIANGLE: f64 = 32.0;
 /// Space that a VTKHDF file reserves for its short lists [bytes]: five lists of 16384 i64.
 const RESERVED: f64 = 5.0 * 16_384.0 * 8.0;
-/// Size of a vertex of a unit surface in a snapshot [bytes]: position, velocity and number of the unit.
-const BYTES_PER_SURFACE_POINT: f64 = 28.0;
+/// Size of a vertex of a unit surface in a snapshot [bytes]: its position.
+const BYTES_PER_SURFACE_POINT: f64 = 12.0;
 /// Size of a square of the water surface in a snapshot [bytes]: a point with velocity and pressure, and two triangles.
 const BYTES_PER_SURFACE_SQUARE: f64 = 28.0 + 2.0 * 24.0;
 /// Size of a particle in a checkpoint [bytes]. Water: position, velocity, density, mass, number; boundary: density.
@@ -83,8 +83,8 @@ fn water_surface_bytes(case: &Case, snapshots: f64) -> f64 {
 fn surfaces_bytes(case: &Case, snapshots: f64) -> f64 {
     let Some(units) = case.units.as_ref().filter(|_| snapshots > 0.0) else { return 0.0 };
     let of_group = |group: &UnitGroup| {
-        let solid = group.shape.unit().solid();
-        let (vertices, triangles) = (solid.vertices().len() as f64, solid.triangles().len() as f64);
+        let (vertices, triangles) = group.shape.unit().film_surface();
+        let (vertices, triangles) = (vertices.len() as f64, triangles.len() as f64);
         group.members.len() as f64 * (snapshots * BYTES_PER_SURFACE_POINT * vertices + BYTES_PER_TRIANGLE * triangles)
     };
     RESERVED + units.groups.iter().map(of_group).sum::<f64>()

@@ -75,7 +75,7 @@ impl ArmourUnit {
         if !(rounding_share > 0.0 && rounding_share <= largest) {
             return Err(ArmourUnitError::Rounding { share: rounding_share, largest });
         }
-        let (vertices, triangles) = tetrapod::surface(height_m);
+        let (vertices, triangles) = tetrapod::surface(height_m, tetrapod::FINE);
         let rounding = rounding_share * height_m;
         Ok(Self {
             height: height_m,
@@ -193,6 +193,14 @@ impl ArmourUnit {
     /// Closed surface in body axes.
     pub fn solid(&self) -> &Solid {
         &self.solid
+    }
+
+    /// Closed surface for films: vertices in body axes [m] and triangles. A Tetrapod has legs with twelve sides.
+    pub fn film_surface(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        if self.is_tetrapod() {
+            return tetrapod::surface(self.height, tetrapod::COARSE);
+        }
+        (self.solid.vertices().to_vec(), self.solid.triangles().to_vec())
     }
 
     /// Convex parts in body axes.

@@ -20,11 +20,18 @@ const BASE_RADIUS: f64 = 0.235;
 const LEG_LENGTH: f64 = 0.477;
 /// Distance from the centre to the tip, divided by the height H [-].
 const CENTRE_TO_TIP: f64 = 0.644;
-/// Number of points around a leg; a multiple of 6 includes the corners where three legs meet. The polygon's area is
-/// 1 - (2 pi / 72)^2 / 6 = 99.87 % of the area of the circle.
-const AROUND: usize = 72;
-/// Number of mesh rows between the rim of the tip and the crease.
-const ROWS: usize = 6;
+/// Detail of a mesh: number of points around a leg, and of rows between the rim of the tip and the crease. A multiple of
+/// 6 points includes the corners where three legs meet.
+pub struct Detail {
+    around: usize,
+    rows: usize,
+}
+
+/// Detail of the exact surface. The area of the polygon is 1 - (2 pi / 72)^2 / 6 = 99.87 % of the area of the circle.
+pub const FINE: Detail = Detail { around: 72, rows: 6 };
+
+/// Detail for films.
+pub const COARSE: Detail = Detail { around: 12, rows: 1 };
 
 /// Axes of the four legs: unit vectors to the corners of a tetrahedron, the first upwards, the second towards -x.
 pub fn leg_axes() -> [DVec3; 4] {
@@ -58,7 +65,7 @@ fn centre_radius() -> f64 {
 }
 
 /// Surface of a Tetrapod of height H [m] about its centre: vertices [m] and triangles.
-pub fn surface(height_m: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+pub fn surface(height_m: f64, Detail { around, rows }: Detail) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let axes = leg_axes();
     let mut vertices: Vec<DVec3> = Vec::new();
     let mut triangles = Vec::new();
@@ -68,15 +75,15 @@ pub fn surface(height_m: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         // Azimuth 0 points towards another leg, in a mirror plane of the crease.
         let e1 = (other - axis * axis.dot(other)).normalize();
         let e2 = axis.cross(e1);
-        let mut rings: Vec<Vec<u32>> = vec![Vec::new(); ROWS + 1];
-        for k in 0..AROUND {
-            let angle = TAU * k as f64 / AROUND as f64;
+        let mut rings: Vec<Vec<u32>> = vec![Vec::new(); rows + 1];
+        for k in 0..around {
+            let angle = TAU * k as f64 / around as f64;
             let out = e1 * angle.cos() + e2 * angle.sin();
             let rim = axis * CENTRE_TO_TIP + out * TIP_RADIUS;
             let end = crease_point(&axes, leg, out);
             for (row, ring) in rings.iter_mut().enumerate() {
-                let point = height_m * rim.lerp(end, row as f64 / ROWS as f64);
-                ring.push(if row == ROWS {
+                let point = height_m * rim.lerp(end, row as f64 / rows as f64);
+                ring.push(if row == rows {
                     crease_vertex(point, height_m, &mut vertices, &mut creases)
                 } else {
                     vertices.push(point);
@@ -86,8 +93,8 @@ pub fn surface(height_m: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         }
         vertices.push(axis * CENTRE_TO_TIP * height_m);
         let tip = (vertices.len() - 1) as u32;
-        for k in 0..AROUND {
-            let next = (k + 1) % AROUND;
+        for k in 0..around {
+            let next = (k + 1) % around;
             triangles.push([tip, rings[0][k], rings[0][next]]);
             for pair in rings.windows(2) {
                 let [upper, lower] = [&pair[0], &pair[1]];

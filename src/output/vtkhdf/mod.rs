@@ -3,7 +3,8 @@
 //! Layout: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/>. Every step (recorded time) is one
 //! part of the file. All cells of a kind have the same number of corners n. Therefore all steps share one list
 //! `Offsets`: 0, n, 2n, ..., long enough for the step with most cells. Connectivity (the corner points of the cells) is
-//! written again only if it differs from the previous step. `NSteps` is written last, and then the file is flushed, so
+//! written again only if it differs from the previous step; so are fields of integers. A series can also use the points
+//! of the last step again while they rest. `NSteps` is written last, and then the file is flushed, so
 //! that a killed run leaves a file of complete steps.
 
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ use hdf5_metno::{Dataset, File, Group};
 
 use self::layout::{
     Hdf5Result, TOPOLOGIES, append_rows, append_rows_of, append_values, create_unlocked, cut, damaged, entry,
-    open_with_steps, set_row, set_row_of_4, write_skeleton,
+    open_with_steps, read_vectors, set_row, set_row_of_4, write_skeleton,
 };
 use super::OutputError;
 
@@ -107,6 +108,21 @@ pub struct PolyDataSeries {
     /// Triangles of the last step, and the row in `Connectivity` where they start.
     last_triangles: Vec<[u32; 3]>,
     last_connectivity_start: usize,
+    /// Points that have moved by less than this since they were written are not written again [m]; `None` if points are
+    /// always written.
+    rest: Option<f32>,
+    /// Points and fields of the last step; `None` after the file was opened.
+    last: Option<LastStep>,
+}
+
+/// What the next step can use again.
+#[derive(Debug, Default)]
+struct LastStep {
+    /// Points of the last step, and the row in `Points` where they start.
+    points: Vec<[f32; 3]>,
+    point_start: usize,
+    /// For each field, its integers, and the row where its values start.
+    fields: Vec<(Vec<i32>, usize)>,
 }
 
 impl PolyDataSeries {
@@ -130,7 +146,15 @@ impl PolyDataSeries {
             steps: 0,
             last_triangles: Vec::new(),
             last_connectivity_start: 0,
+            rest: None,
+            last: None,
         })
+    }
+
+    /// Uses the points and fields of the last step again while no point has moved further than `distance` [m] since it
+    /// was written. A film then shows points at rest exactly in their last position.
+    pub fn skipping_rest(self, distance: f64) -> Self {
+        Self { rest: Some(distance as f32), ..self }
     }
 
     /// Opens the file of an interrupted run and keeps only the first `steps` steps. Creates a missing file if it had no
@@ -151,6 +175,8 @@ impl PolyDataSeries {
             steps,
             last_triangles: Vec::new(),
             last_connectivity_start: 0,
+            rest: None,
+            last: None,
         };
         series.truncate().map_err(OutputError::hdf5(path))?;
         Ok(series)
@@ -200,14 +226,32 @@ impl PolyDataSeries {
             Cells::Triangles => triangles.len(),
         };
 
-        let point_start = append_rows_of(&root.dataset("Points")?, points)?;
+        let mut last = match self.last.take() {
+            Some(last) => last,
+            None => self.recall_last_step(&root, &steps)?,
+        };
+        let is_at_rest = self.rest.is_some_and(|distance| are_within(&last.points, points, distance));
+        if !is_at_rest {
+            last.point_start = append_rows_of(&root.dataset("Points")?, points)?;
+            // Without the option, the points are not needed again.
+            last.points = if self.rest.is_some() { points.to_vec() } else { Vec::new() };
+        }
+        let point_start = last.point_start;
         let connectivity_start = self.write_cells(&root, points.len(), triangles, count)?;
         let point_data = root.group("PointData")?;
         let point_data_offsets = steps.group("PointDataOffsets")?;
-        for ((name, _), value) in self.fields.iter().zip(values) {
-            let start = append_values(&point_data.dataset(name)?, value)?;
-            set_row(&point_data_offsets.dataset(name)?, row, start as i64)?;
+        last.fields.resize_with(self.fields.len(), Default::default);
+        for (((name, _), value), (integers, start)) in self.fields.iter().zip(values).zip(&mut last.fields) {
+            let is_same = matches!(value, FieldValues::Integer(values) if self.rest.is_some() && values == integers);
+            if !is_same && !is_at_rest {
+                *start = append_values(&point_data.dataset(name)?, value)?;
+                if let (FieldValues::Integer(values), true) = (value, self.rest.is_some()) {
+                    *integers = values.to_vec();
+                }
+            }
+            set_row(&point_data_offsets.dataset(name)?, row, *start as i64)?;
         }
+        self.last = Some(last);
 
         set_row(&root.dataset("NumberOfPoints")?, row, points.len() as i64)?;
         for (index, name) in TOPOLOGIES.into_iter().enumerate() {
@@ -228,6 +272,25 @@ impl PolyDataSeries {
         self.steps += 1;
         steps.attr("NSteps")?.write_scalar(&(self.steps as i64))?;
         self.file.flush()
+    }
+
+    /// Reads the points and integers of the last kept step.
+    fn recall_last_step(&self, root: &Group, steps: &Group) -> Hdf5Result<LastStep> {
+        let (Some(row), Some(_)) = (self.steps.checked_sub(1), self.rest) else { return Ok(LastStep::default()) };
+        let point_start = entry(&steps.dataset("PointOffsets")?, row)?;
+        let count = entry(&root.dataset("NumberOfPoints")?, row)?;
+        let points = read_vectors(&root.dataset("Points")?, point_start, count)?;
+        let field = |(name, kind): &(String, FieldKind)| -> Hdf5Result<(Vec<i32>, usize)> {
+            let start = entry(&steps.group("PointDataOffsets")?.dataset(name)?, row)?;
+            let values = root.group("PointData")?.dataset(name)?;
+            let integers = match kind {
+                FieldKind::Integer => values.read_slice_1d::<i32, _>(start..start + count)?.to_vec(),
+                _ => Vec::new(),
+            };
+            Ok((integers, start))
+        };
+        let fields = self.fields.iter().map(field).collect::<Hdf5Result<_>>()?;
+        Ok(LastStep { points, point_start, fields })
     }
 
     /// Writes the cells of this step that the file does not have yet; returns the row of `Connectivity` where this step
@@ -307,4 +370,12 @@ impl PolyDataSeries {
         self.last_triangles = corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
         Ok(())
     }
+}
+
+/// Returns true if as many points as before are no further than `distance` [m] from their positions before.
+fn are_within(before: &[[f32; 3]], now: &[[f32; 3]], distance: f32) -> bool {
+    let is_near = |(a, b): (&[f32; 3], &[f32; 3])| {
+        (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f32>() <= distance * distance
+    };
+    before.len() == now.len() && before.iter().zip(now).all(is_near)
 }

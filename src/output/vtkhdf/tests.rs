@@ -95,6 +95,35 @@ fn triangles_are_written_again_only_when_they_change() {
 }
 
 #[test]
+fn points_at_rest_are_written_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("units.vtkhdf");
+    let fields = [("unit", FieldKind::Integer)];
+    let step = |series: &mut PolyDataSeries, time: f64, moved: f32| {
+        let points = [[moved, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+        series.append(time, &points, &[[0, 1, 2]], &[FieldValues::Integer(&[1; 3])]).unwrap();
+    };
+    let mut series = PolyDataSeries::create(&path, Cells::Triangles, &fields).unwrap().skipping_rest(0.1);
+    step(&mut series, 0.0, 0.0);
+    // A slow motion adds up: the limit holds for the distance from the last written position.
+    step(&mut series, 0.1, 0.06);
+    step(&mut series, 0.2, 0.12);
+    step(&mut series, 0.3, 0.2);
+    drop(series);
+    // A resumed run goes on as a run without interruption.
+    let mut series = PolyDataSeries::reopen(&path, Cells::Triangles, &fields, 3).unwrap().skipping_rest(0.1);
+    step(&mut series, 0.3, 0.2);
+    step(&mut series, 0.4, 0.3);
+    drop(series);
+    let file = File::open(&path).unwrap();
+    assert_eq!(list(&file, "Steps/PointOffsets"), [0, 0, 3, 3, 6]);
+    assert_eq!(list(&file, "Steps/PointDataOffsets/unit"), [0; 5]);
+    assert_eq!(list(&file, "NumberOfPoints"), [3; 5]);
+    assert_eq!(file.dataset("VTKHDF/Points").unwrap().shape(), [9, 3]);
+    assert_eq!(file.dataset("VTKHDF/PointData/unit").unwrap().shape(), [3]);
+}
+
+#[test]
 fn a_damaged_file_is_refused_on_resume() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("units.vtkhdf");

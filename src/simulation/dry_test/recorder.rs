@@ -12,7 +12,7 @@ use crate::{
         columns, state_file::DAMAGED, write_atomically,
     },
     rigid::{ContactEvent, RigidSnapshot},
-    simulation::flume::outputs::snapshots::{Frame, UNIT_FIELDS},
+    simulation::flume::outputs::snapshots::{Frame, UNIT_FIELDS, rest_of},
 };
 
 /// How often each output was written, and the lengths of the tables.
@@ -93,7 +93,10 @@ impl DryTestRecorder {
         }
         CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?.append_rows(case.site.profile.points())?;
         UnitSurface::write_groups(case.units.groups.iter().map(|group| group.shape.unit().solid()), dir)?;
-        let surfaces = |_| PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS);
+        let surfaces = |_| -> Result<PolyDataSeries, OutputError> {
+            let series = PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS)?;
+            Ok(series.skipping_rest(rest_of(&case.units.groups)))
+        };
         let mut recorder = Self {
             dir: dir.to_owned(),
             counts: Counts {
@@ -140,9 +143,10 @@ impl DryTestRecorder {
         counts.series.set_interval(Some(output.series_interval), time);
         counts.surfaces.set_interval(output.units_interval, time);
         counts.checkpoints.set_interval(output.checkpoint_interval, time);
-        let surfaces = |_| {
+        let surfaces = |_| -> Result<PolyDataSeries, OutputError> {
             let steps = counts.surfaces.count as usize;
-            PolyDataSeries::reopen(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS, steps)
+            let series = PolyDataSeries::reopen(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS, steps)?;
+            Ok(series.skipping_rest(rest_of(&run.case.units.groups)))
         };
         Ok(Self {
             dir: dir.to_owned(),
@@ -258,9 +262,7 @@ impl DryTestRecorder {
 
     fn record_surfaces(&mut self, run: &DryTest) -> Result<(), OutputError> {
         let Some(series) = &mut self.surfaces else { return Ok(()) };
-        let solids = run.case.units.group_of_each().map(|group| group.shape.unit().solid());
-        let units: Vec<_> = solids.zip(run.world.states()).collect();
-        Frame::of_surfaces(&units, run.world.time()).append_to(series)
+        Frame::of_surfaces(&run.case.units.groups, run.world.states(), run.world.time()).append_to(series)
     }
 }
 

@@ -265,7 +265,7 @@ impl Recorder {
 
     fn record_surfaces(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
         let Some(units) = &simulation.units else { return Ok(()) };
-        let frame = Frame::of_surfaces(&units.solids(), simulation.flume_time());
+        let frame = Frame::of_surfaces(&units.groups, units.states(), simulation.flume_time());
         self.writer.give(move |files| files.append_surfaces(&frame))
     }
 

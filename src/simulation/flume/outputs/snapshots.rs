@@ -9,8 +9,7 @@ use rayon::prelude::*;
 use super::surface::{SurfaceSeries, WaterParts, particles_in};
 use crate::simulation::flume::Simulation;
 use crate::{
-    case::{FluidField, Output},
-    geometry::solid::Solid,
+    case::{FluidField, Output, UnitGroup},
     output::{Cells, FieldKind, FieldValues, OutputError, PolyDataSeries},
     rigid::BodyState,
     sph::particles::water::Water,
@@ -21,8 +20,16 @@ pub const WATER_FILE: &str = "fluid.vtkhdf";
 /// File name of the snapshots of the unit surfaces.
 pub const SURFACES_FILE: &str = "units.vtkhdf";
 
-/// Fields of the unit surfaces.
-pub const UNIT_FIELDS: [(&str, FieldKind); 2] = [("velocity", FieldKind::Vector), ("unit", FieldKind::Integer)];
+/// Field of the unit surfaces.
+pub const UNIT_FIELDS: [(&str, FieldKind); 1] = [("unit", FieldKind::Integer)];
+/// While no point of a surface has moved further than this, a film shows the last position: distance divided by the
+/// smallest unit height [-].
+const AT_REST: f64 = 1e-3;
+
+/// Returns the distance below which the units of a film are at rest [m].
+pub fn rest_of(groups: &[UnitGroup]) -> f64 {
+    AT_REST * groups.iter().map(|group| group.shape.height()).fold(f64::INFINITY, f64::min)
+}
 
 /// Open snapshot files; `None` for a file that the case does not request.
 pub struct SnapshotFiles {
@@ -39,7 +46,11 @@ impl SnapshotFiles {
     pub fn create(simulation: &Simulation, dir: &Path) -> Result<Self, OutputError> {
         let fields = water_fields(&simulation.case.output);
         let water = |_| PolyDataSeries::create(&dir.join(WATER_FILE), Cells::Vertices, &fields);
-        let surfaces = |_| PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS);
+        let rest = simulation.units.as_ref().map_or(0.0, |units| rest_of(&units.groups));
+        let surfaces = |_| -> Result<PolyDataSeries, OutputError> {
+            let series = PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS)?;
+            Ok(series.skipping_rest(rest))
+        };
         Ok(Self {
             water: simulation.case.output.fluid_interval.map(water).transpose()?,
             surfaces: surfaces_interval(simulation).map(surfaces).transpose()?,
@@ -62,7 +73,10 @@ impl SnapshotFiles {
             PolyDataSeries::reopen(&dir.join(file), cells, fields, steps as usize)
         };
         let water = |_| open(WATER_FILE, Cells::Vertices, &fields, water);
-        let surfaces = |_| open(SURFACES_FILE, Cells::Triangles, &UNIT_FIELDS, surfaces);
+        let rest = simulation.units.as_ref().map_or(0.0, |units| rest_of(&units.groups));
+        let surfaces = |_| -> Result<PolyDataSeries, OutputError> {
+            Ok(open(SURFACES_FILE, Cells::Triangles, &UNIT_FIELDS, surfaces)?.skipping_rest(rest))
+        };
         Ok(Self {
             water: simulation.case.output.fluid_interval.map(water).transpose()?,
             surfaces: surfaces_interval(simulation).map(surfaces).transpose()?,
@@ -162,21 +176,19 @@ impl Frame {
         }
     }
 
-    /// Copies the surfaces of the units, with the velocity of each point and the number of its unit.
-    pub fn of_surfaces(units: &[(&Solid, &BodyState)], time: f64) -> Self {
-        let (mut points, mut triangles) = (Vec::new(), Vec::new());
-        let (mut velocity, mut number) = (Vec::new(), Vec::new());
-        for (unit, (solid, state)) in units.iter().enumerate() {
-            let first = points.len() as u32;
-            triangles.extend(solid.triangles().iter().map(|corners| corners.map(|corner| first + corner)));
-            for &vertex in solid.vertices() {
-                let arm = state.rotation * vertex;
-                points.push((state.position + arm).as_vec3().to_array());
-                velocity.push((state.velocity + state.angular_velocity.cross(arm)).as_vec3().to_array());
-                number.push(unit as i32 + 1);
+    /// Copies the surfaces of the units, with the number of the unit of each point.
+    pub fn of_surfaces(groups: &[UnitGroup], states: &[BodyState], time: f64) -> Self {
+        let (mut points, mut triangles, mut number) = (Vec::new(), Vec::new(), Vec::new());
+        for group in groups {
+            let (vertices, faces) = group.shape.unit().film_surface();
+            for (state, unit) in states[group.members.clone()].iter().zip(group.members.clone()) {
+                let first = points.len() as u32;
+                triangles.extend(faces.iter().map(|corners| corners.map(|corner| first + corner)));
+                points.extend(vertices.iter().map(|v| (state.position + state.rotation * *v).as_vec3().to_array()));
+                number.extend(vertices.iter().map(|_| unit as i32 + 1));
             }
         }
-        Self { time, points, triangles, fields: vec![Column::Vector(velocity), Column::Integer(number)] }
+        Self { time, points, triangles, fields: vec![Column::Integer(number)] }
     }
 
     /// Appends the snapshot to a file with the same fields.
