@@ -7,8 +7,8 @@ use clap::Args;
 use super::{CommandError, counted, input::load, run, savings::savings};
 use crate::{
     case::{
-        BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Reference, Sides,
-        UnitGroup, UnitKind, Units, Wave, Wavemaker,
+        BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Part, PartShape,
+        Reference, Sides, UnitGroup, UnitKind, Units, Wave, Wavemaker,
     },
     output::{OutputSize, progress::readable},
     rigid::{RigidSetup, RigidWorld},
@@ -162,6 +162,13 @@ fn print(case: &Case) {
         "  domain      x = {} to {} m, {across}, still water depth up to {:.3} m",
         case.domain.x[0], case.domain.x[1], case.domain.depth
     );
+    if !case.flume.parts.is_empty() {
+        let words = |part: &Part| {
+            let place = if matches!(part.shape, PartShape::Bed(_)) { " (part of the bed)" } else { "" };
+            format!("{}{place}", part.name)
+        };
+        println!("  structure   {}", case.flume.parts.iter().map(words).collect::<Vec<_>>().join(", "));
+    }
     for region in case.domain.regions.iter().filter(|_| case.domain.regions.len() > 1) {
         let dp = f64::from(region.coarseness) * case.domain.dp;
         println!("  spacing     {dp} m from x = {:.3} to {:.3} m", region.x[0], region.x[1]);
