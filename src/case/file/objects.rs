@@ -66,7 +66,7 @@ pub struct UnitsFile {
     /// Rotation of the units about the vertical axis, for a row and for `centres_m`.
     #[serde(default)]
     pub orientation: Orientation,
-    /// A unit counts as damaged if it moves further than this distance [m]. Default: the nominal diameter D_n of a unit.
+    /// A unit counts as damaged if it moves further than this [m]. Default: the nominal diameter D_n of a unit.
     #[serde(default)]
     pub damage_distance_m: Option<f64>,
     /// Way that counts for the damage. Default: `spatial`; `horizontal` if `damage_distance_m` is given.
@@ -331,7 +331,8 @@ impl ContactLawName {
     }
 }
 
-/// A gauge: a point at which elevation, pressure or velocity of the water is measured, or the force on a group of units.
+/// A gauge: a point at which elevation, pressure or velocity of the water is measured, or the force on a part or on a
+/// group of units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum GaugeFile {

@@ -20,8 +20,8 @@ const BASE_RADIUS: f64 = 0.235;
 const LEG_LENGTH: f64 = 0.477;
 /// Distance from the centre to the tip, divided by the height H [-].
 const CENTRE_TO_TIP: f64 = 0.644;
-/// Detail of a mesh: number of points around a leg, and of rows between the rim of the tip and the crease. A multiple of
-/// 6 points includes the corners where three legs meet.
+/// Detail of a mesh: number of points around a leg, and of rows between the rim of the tip and the crease. A multiple
+/// of 6 points includes the corners where three legs meet.
 pub struct Detail {
     around: usize,
     rows: usize,

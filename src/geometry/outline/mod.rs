@@ -103,8 +103,8 @@ impl Outline {
         is_even(&self.segments, point)
     }
 
-    /// Returns the distance along a ray to the first segment that faces it, within about 25 degrees [m]; `None` if there is
-    /// none within `reach` [m]. `direction` is a unit vector.
+    /// Returns the distance along a ray to the first segment that faces it, within about 25 degrees [m]; `None` if there
+    /// is none within `reach` [m]. `direction` is a unit vector.
     pub fn facing(&self, from: DVec2, direction: DVec2, reach: f64) -> Option<f64> {
         let hit = |[a, b]: &[DVec2; 2]| {
             let along = b - a;

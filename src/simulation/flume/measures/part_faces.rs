@@ -21,8 +21,8 @@ pub struct FacePoint {
 /// Distance from a face at which a point must be outside all solids, for the face to be open, divided by dp [-].
 const IN_FRONT: f64 = 1e-3;
 
-/// Returns for each part of the case the points on its open faces, about dp apart. A part without a force gauge has none.
-/// `outline` is the outline of bed, walls and all parts that are the same across the flume.
+/// Returns for each part of the case the points on its open faces, about dp apart. A part without a force gauge has
+/// none. `outline` is the outline of bed, walls and all parts that are the same across the flume.
 pub(in crate::simulation::flume) fn part_faces(case: &Case, outline: &Outline) -> Vec<Vec<FacePoint>> {
     let is_measured = |part: usize| case.gauges.iter().any(|gauge| gauge.quantity == Quantity::PartForce(part));
     let faces = |(index, part): (usize, &Part)| match &part.shape {
