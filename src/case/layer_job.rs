@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::file::{ArmourFile, ArmourOrientation, CaseFile, DryFile, UnitGroupsFile};
+use super::flume::part::Part;
 use super::flume::{ground, site::Site};
 use super::reading::check::{Checker, at_least, more_than};
 use super::reading::document::{Document, InputKind};
@@ -11,6 +12,7 @@ use super::units::contact::{self, Contact};
 use super::units::materials::{self, GroundNames, Material};
 use super::units::{self, MAX_UNITS, Surroundings, UnitGroup, Units};
 use super::{dry_test, flume_case};
+use crate::geometry::outline::polygon::Polygon;
 
 /// Armour layers on a slope; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,9 +80,15 @@ impl LayerJob {
     /// Returns the points (x, z) of the slope under layers: both ends and the corner points between them [m].
     pub fn slope(&self, layers: &Layers) -> Vec<[f64; 2]> {
         let [x0, x1] = layers.armour.x;
-        let inner = self.site.profile.points().iter().copied().filter(|p| p[0] > x0 && p[0] < x1);
-        let end = |x: f64| [x, self.site.profile.z(x)];
-        [end(x0)].into_iter().chain(inner).chain([end(x1)]).collect()
+        let sections: Vec<&Polygon> = self.site.parts.iter().filter_map(Part::section).collect();
+        let level =
+            |x: f64| sections.iter().filter_map(|section| section.top(x)).fold(self.site.profile.z(x), f64::max);
+        let of_sections = sections.iter().flat_map(|section| section.points()).map(|point| point.x);
+        let corners = self.site.profile.points().iter().map(|point| point[0]).chain(of_sections);
+        let mut x: Vec<f64> = corners.filter(|x| *x > x0 && *x < x1).chain([x0, x1]).collect();
+        x.sort_by(f64::total_cmp);
+        x.dedup();
+        x.into_iter().map(|x| [x, level(x)]).collect()
     }
 
     /// Returns the group of units of layers.

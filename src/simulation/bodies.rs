@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::{
     case::{self, ContactLawName, Part, PartShape, Sides, Site, UnitGroup, UnitPose, Units},
@@ -103,9 +103,19 @@ fn beyond(site: &Site, longest: f64) -> f64 {
     ACROSS * site.width.max(longest)
 }
 
+/// Shortest edge of a face across the flume, divided by its length across the flume [-]. Shorter edges are left out.
+const THINNEST: f64 = 1e-6;
+
 /// Returns the faces of a body with this section between two y [m].
 fn extruded(section: &Polygon, y: [f64; 2]) -> Terrain {
-    let points = section.points();
+    // A triangle that is much longer than wide has no reliable normal.
+    let least = THINNEST * (y[1] - y[0]);
+    let mut points: Vec<DVec2> = Vec::new();
+    for point in section.points() {
+        if [points.first(), points.last()].into_iter().flatten().all(|other| other.distance(*point) > least) {
+            points.push(*point);
+        }
+    }
     let vertices = points.iter().flat_map(|point| y.map(|y| DVec3::new(point.x, y, point.y))).collect();
     let count = points.len() as u32;
     let face = |from: u32| {
@@ -132,7 +142,7 @@ mod tests {
         assert_eq!(surface.triangles().len(), 8);
         for [a, b, c] in surface.triangles().iter().map(|triangle| triangle.map(corner)) {
             let outside = (a + b + c) / 3.0 + 1e-6 * (b - a).cross(c - a).normalize();
-            assert!(section.distance(glam::DVec2::new(outside.x, outside.z)) > 0.0, "{outside}");
+            assert!(section.distance(DVec2::new(outside.x, outside.z)) > 0.0, "{outside}");
         }
     }
 }

@@ -122,6 +122,50 @@ fn a_wave_run_has_the_same_bed_from_profile_polygon_and_stl_surface() {
     }
 }
 
+/// Returns the validated case with this bed and structure; all parts have the material `filter`.
+fn with_filter(bed: Value, parts: &[Value]) -> Case {
+    let mut case = wall(json!(parts));
+    case["structure"].as_array_mut().unwrap().iter_mut().for_each(|part| part["material"] = json!("filter"));
+    case["flume"] = json!({ "bed_m": bed, "still_water_level_m": DEPTH, "material": "filter" });
+    (case["domain"]["x_m"], case["domain"]["top_z_m"]) = (json!([4.5, 7.5]), json!(0.6));
+    case["gauges"] = json!([]);
+    case["materials"] =
+        json!([{ "name": "filter", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }]);
+    Case::from_str(&case.to_string(), "case.json").unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+#[test]
+fn parts_with_rounded_coordinates_touch() {
+    let polygon = |name: &str, points: Value| json!({ "name": name, "polygon_m": points });
+    let flat = json!([[0.0, 0.0], [8.0, 0.0]]);
+    let core = polygon("core", json!([[5.4, 0.0], [6.0, 0.35], [6.7, 0.35], [7.3, 0.0]]));
+    // The exact corner of the berm on the flank is at x = 5.4 + 6 / 35 = 5.57142857 m. The berm comes first in the list.
+    for x in [5.571428, 5.571429] {
+        let berm = polygon("berm", json!([[5.0, 0.0], [5.2, 0.1], [x, 0.1], [5.4, 0.0]]));
+        let case = with_filter(flat.clone(), &[berm, core.clone()]);
+        assert!(case.flume.parts.iter().all(|part| matches!(part.shape, PartShape::Bed(_))));
+        let mut covers: Vec<f64> = case.flume.covers.iter().flat_map(|cover| cover.x).collect();
+        covers.sort_by(f64::total_cmp);
+        for (x, wanted) in covers.iter().zip([5.0, 5.4, 5.571, 7.3]) {
+            assert!((x - wanted).abs() < 2e-3, "{covers:?}");
+        }
+    }
+    // A crown wall with coordinates in single precision stands on the crest without a gap.
+    let single = |value: f64| f64::from(value as f32);
+    let foot = single(0.35);
+    let wall = [[6.2, foot], [6.2, 0.5], [6.3, 0.5], [6.3, foot]].map(|[x, z]| [single(x), z]);
+    let case = with_filter(flat.clone(), &[core, polygon("wall", json!(wall))]);
+    assert!(matches!(case.flume.parts[1].shape, PartShape::Section(_)));
+    // A toe that is rounded upwards does not spread its material over the bed in front of it.
+    let sloping = json!([[0.0, 0.0], [3.0, 0.0], [6.0, 0.1], [8.0, 0.1]]);
+    let mound = polygon("mound", json!([[5.0, 0.066667], [5.5, 0.3], [5.8, 0.3], [6.4, 0.1]]));
+    let cover = with_filter(sloping, &[mound]).flume.covers[0];
+    assert!((cover.x[0] - 5.0).abs() < 1e-9 && (cover.x[1] - 6.4).abs() < 1e-9, "{cover:?}");
+    // A part may begin at the first point of the bed.
+    let rise = polygon("rise", json!([[0.0, 0.0], [0.0, 0.1], [2.0, 0.0]]));
+    assert_eq!(with_filter(flat, &[rise]).flume.profile.points(), [[0.0, 0.1], [2.0, 0.0], [8.0, 0.0]]);
+}
+
 #[test]
 fn a_box_is_the_same_as_obstacle_part_and_stl_surface() {
     let folder = tempfile::tempdir().unwrap();

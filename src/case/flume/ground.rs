@@ -32,7 +32,7 @@ pub fn validate(
     let parts = structure::place_on_bed(&file.structure, materials.parts, &mut flume, &room, check);
     let domain = domain::validate(&file.domain, Some(&flume), file.numerics.smoothing_factor, check);
     let (Some(parts), Some(domain)) = (parts, domain) else { return (Some(flume), None) };
-    match structure::validate(parts, &file.domain.obstacles, &flume, domain.width, &room, check) {
+    match structure::validate(parts, &file.structure, &file.domain.obstacles, &flume, domain.width, &room, check) {
         Some(parts) => {
             flume.parts = parts;
             (Some(flume), Some(domain))

@@ -42,6 +42,13 @@ impl Case {
     }
 }
 
+impl Case {
+    /// Returns true if the case has obstacles, or parts that are not part of the bed.
+    pub fn has_parts_in_water(&self) -> bool {
+        self.flume.parts.iter().any(|part| !matches!(part.shape, PartShape::Bed(_)))
+    }
+}
+
 /// Smallest distance of units and obstacles from the ends of the finest region, divided by its particle spacing [-].
 /// The buffers of the coarser regions end there.
 const MARGIN: f64 = 20.0;

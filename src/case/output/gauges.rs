@@ -223,14 +223,19 @@ fn validate_force(
         check.reject(&format!("{path}.about_m[{axis}]"), "not finite", "a finite number", "write a point in metres");
         return None;
     }
+    let groups = units.map_or(&[][..], |units| &units.groups);
+    let names = || flume.parts.iter().map(|part| &part.name).chain(groups.iter().map(|group| &group.name));
+    if names().filter(|name| **name == file.on).count() > 1 {
+        let advice = "give the part and the group of units different names";
+        check.reject(&format!("{path}.on"), format!("{:?}", file.on), "the name of one part or group", advice);
+        return None;
+    }
     if let Some(part) = flume.parts.iter().position(|part| part.name == file.on) {
         let middle = flume.parts[part].middle(domain.width).to_array();
         return Some((Quantity::PartForce(part), file.about_m.unwrap_or(middle)));
     }
-    let groups = units.map_or(&[][..], |units| &units.groups);
     let Some(group) = groups.iter().find(|group| group.name == file.on) else {
-        let names = flume.parts.iter().map(|part| &part.name).chain(groups.iter().map(|group| &group.name));
-        let names: Vec<String> = names.map(|name| format!("{name:?}")).collect();
+        let names: Vec<String> = names().map(|name| format!("{name:?}")).collect();
         let (allowed, advice) = match names.is_empty() {
             true => {
                 ("left out without parts and units".to_owned(), "add a `structure` or `units`, or remove the gauge")

@@ -59,7 +59,7 @@ impl Outline {
     /// Returns the outline of the solid behind this outline and of a polygon together. Where both touch, there is no
     /// gap between them.
     pub fn with(&self, polygon: &Polygon) -> Self {
-        let touch = TOUCH * self.largest_coordinate();
+        let touch = self.touch();
         let snapped: Vec<DVec2> = polygon.points().iter().map(|point| self.snapped(*point, touch)).collect();
         let edges: Vec<[DVec2; 2]> = closed(&snapped).filter(|[from, to]| from != to).collect();
         let (mut cuts, mut edge_cuts) = (vec![Vec::new(); self.segments.len()], vec![Vec::new(); edges.len()]);
@@ -77,12 +77,17 @@ impl Outline {
             match edges.iter().find(|edge| distance(edge, middle) <= touch) {
                 // Two faces that touch: water is on the same side of both, or on neither side.
                 Some(edge) => (edge[1] - edge[0]).dot(piece[1] - piece[0]) > 0.0,
-                None => is_even(&edges, middle),
+                None => is_even(edges.iter().copied(), middle),
             }
         };
+        let ends = self.ends();
         let is_in_water = |piece: &&[DVec2; 2]| {
             let middle = 0.5 * (piece[0] + piece[1]);
-            !self.segments.iter().any(|segment| distance(segment, middle) <= touch) && !self.is_solid(middle)
+            // The flume ends there; beyond, the solid continues.
+            let is_at_end = ends.iter().any(|end| piece.iter().all(|point| (point.x - end).abs() <= touch));
+            !is_at_end
+                && !self.segments.iter().any(|segment| distance(segment, middle) <= touch)
+                && !self.is_solid(middle)
         };
         let kept = own.iter().filter(is_outside).chain(others.iter().filter(is_in_water));
         Self::of(kept.copied().collect())
@@ -100,12 +105,14 @@ impl Outline {
 
     /// Returns true if a point is behind the outline. The bed continues downwards without end.
     pub fn is_solid(&self, point: DVec2) -> bool {
-        is_even(&self.segments, point)
+        is_even(self.segments.iter().copied(), point)
     }
 
     /// Returns the distance along a ray to the first segment that faces it, within about 25 degrees [m]; `None` if there
     /// is none within `reach` [m]. `direction` is a unit vector.
     pub fn facing(&self, from: DVec2, direction: DVec2, reach: f64) -> Option<f64> {
+        // Faces that touch can be as far from each other as this.
+        let nothing = 2.0 * self.touch();
         let hit = |[a, b]: &[DVec2; 2]| {
             let along = b - a;
             if along.normalize_or_zero().perp_dot(direction).abs() < 0.9 {
@@ -114,7 +121,7 @@ impl Outline {
             let across = direction.perp_dot(along);
             let offset = a - from;
             let (way, share) = (offset.perp_dot(along) / across, offset.perp_dot(direction) / across);
-            (way > 1e-9 * reach && way < reach && (0.0..=1.0).contains(&share)).then_some(way)
+            (way > nothing && way < reach && (0.0..=1.0).contains(&share)).then_some(way)
         };
         self.segments.iter().filter_map(hit).min_by(f64::total_cmp)
     }
@@ -158,8 +165,15 @@ impl Outline {
         best.filter(|(signed, ..)| *signed < max_distance).map(|(signed, _, normal)| (normal, signed))
     }
 
-    fn largest_coordinate(&self) -> f64 {
-        self.segments.iter().flatten().map(|point| point.abs().max_element()).fold(0.0, f64::max)
+    /// Returns the distance below which two points count as one point [m].
+    pub fn touch(&self) -> f64 {
+        TOUCH * self.segments.iter().flatten().map(|point| point.abs().max_element()).fold(0.0, f64::max)
+    }
+
+    /// Returns x of both ends of the outline [m].
+    fn ends(&self) -> [f64; 2] {
+        let x = || self.segments.iter().flatten().map(|point| point.x);
+        [x().fold(f64::INFINITY, f64::min), x().fold(f64::NEG_INFINITY, f64::max)]
     }
 
     /// Returns the corner of the outline that a point touches; the point itself if it touches none.

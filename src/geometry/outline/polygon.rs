@@ -14,8 +14,8 @@ pub enum PolygonError {
     /// A coordinate is not a finite number.
     #[error("point {0} has a coordinate that is not a finite number")]
     NotFinite(usize),
-    /// Two neighbouring points are equal.
-    #[error("point {0} is equal to the next point")]
+    /// Two neighbouring points are equal, or nearly so.
+    #[error("point {0} is in the same place as the next point")]
     Repeated(usize),
     /// Two edges cross or touch.
     #[error("the edges that begin at the points {0} and {1} cross or touch")]
@@ -24,6 +24,9 @@ pub enum PolygonError {
     #[error("the points lie on one line")]
     NoArea,
 }
+
+/// Neighbouring points nearer than this are in the same place, divided by the size of the polygon [-].
+const SAME: f64 = 1e-5;
 
 /// A polygon whose edges do not cross. Seen along an edge, the inside lies on the right.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,10 +50,10 @@ impl Polygon {
             return Err(PolygonError::NotFinite(bad + 1));
         }
         let edges: Vec<[DVec2; 2]> = closed(&points).collect();
-        if let Some(bad) = edges.iter().position(|[from, to]| from == to) {
+        let size = points.iter().map(|point| point.distance(points[0])).fold(0.0, f64::max);
+        if let Some(bad) = edges.iter().position(|[from, to]| from.distance(*to) <= SAME * size) {
             return Err(PolygonError::Repeated(bad + 1));
         }
-        let size = points.iter().map(|point| point.distance(points[0])).fold(0.0, f64::max);
         let are_neighbours = |one: usize, other: usize| other - one == 1 || other - one == count - 1;
         for (one, other) in (0..count).flat_map(|one| (one + 1..count).map(move |other| (one, other))) {
             if !are_neighbours(one, other) && touch(&edges[one], &edges[other], 1e-9 * size) {
@@ -90,7 +93,7 @@ impl Polygon {
 
     /// Returns true if a point lies inside. Points on an edge may count as either.
     pub fn contains(&self, point: DVec2) -> bool {
-        !is_even(&self.edges().collect::<Vec<_>>(), point)
+        !is_even(self.edges(), point)
     }
 
     /// Returns the point of the edges nearest to a point.
@@ -105,6 +108,15 @@ impl Polygon {
     pub fn distance(&self, point: DVec2) -> f64 {
         let distance = self.nearest(point).distance(point);
         if self.contains(point) { -distance } else { distance }
+    }
+
+    /// Returns true if a box between two corners overlaps the polygon or is nearer to it than `gap` [m].
+    pub fn is_near_box(&self, low: DVec2, high: DVec2, gap: f64) -> bool {
+        let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+        let to_box = |point: &DVec2| point.clamp(low, high).distance(*point);
+        corners.iter().any(|corner| self.distance(*corner) < gap)
+            || self.points.iter().any(|point| to_box(point) < gap)
+            || closed(&corners).any(|side| self.edges().any(|edge| crossing(&side, &edge).is_some()))
     }
 
     /// Returns the highest level of the polygon at x [m], if the polygon is there.
@@ -144,12 +156,16 @@ mod tests {
         assert!(shape.contains(DVec2::new(0.5, 2.0)) && !shape.contains(DVec2::new(1.5, 2.0)));
         assert_eq!((shape.top(0.5), shape.top(1.5), shape.top(2.5)), (Some(3.0), Some(1.0), None));
         assert_eq!(shape.distance(DVec2::new(0.25, 2.0)), -0.25);
+        // A pile through the upper part, which has no corner near a corner of the shape.
+        assert!(shape.is_near_box(DVec2::new(-0.5, 2.0), DVec2::new(1.5, 2.2), 0.1));
+        assert!(!shape.is_near_box(DVec2::new(1.2, 2.0), DVec2::new(1.5, 2.2), 0.1));
     }
 
     #[test]
     fn polygons_without_an_inside_are_refused() {
         assert_eq!(Polygon::new(&[[0.0, 0.0], [1.0, 0.0]]), Err(PolygonError::TooFewPoints(2)));
         assert_eq!(Polygon::new(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0]]), Err(PolygonError::Repeated(2)));
+        assert_eq!(Polygon::new(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1e-6]]), Err(PolygonError::Repeated(2)));
         assert_eq!(Polygon::new(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]), Err(PolygonError::NoArea));
         assert_eq!(Polygon::new(&[[0.0, f64::NAN], [1.0, 0.0], [1.0, 1.0]]), Err(PolygonError::NotFinite(1)));
         let bow = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];

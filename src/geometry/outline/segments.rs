@@ -13,11 +13,11 @@ pub(super) fn closed(points: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
 }
 
 /// Returns true if an even number of segments crosses the ray from a point downwards.
-pub(super) fn is_even(segments: &[[DVec2; 2]], point: DVec2) -> bool {
-    let crosses = |[a, b]: &&[DVec2; 2]| {
+pub(super) fn is_even(segments: impl Iterator<Item = [DVec2; 2]>, point: DVec2) -> bool {
+    let crosses = |[a, b]: &[DVec2; 2]| {
         (a.x <= point.x) != (b.x <= point.x) && a.y + (b.y - a.y) * (point.x - a.x) / (b.x - a.x) < point.y
     };
-    segments.iter().filter(crosses).count() % 2 == 0
+    segments.filter(crosses).count() % 2 == 0
 }
 
 /// Returns the point of a segment nearest to `point`.

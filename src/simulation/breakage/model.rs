@@ -2,10 +2,14 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::case::{Case, DryTestCase, Site, UnitShape, Units};
+use crate::case::{Case, DryTestCase, Part, PartShape, Site, UnitShape, Units};
 use crate::case::{ContactLawName, Material as CaseMaterial};
 use crate::output::Impact;
 use crate::rigid::{BodyState, ContactEvent, Feature, Material};
+
+/// A contact point nearer than this to a part is on this part, divided by the height of the unit [-]: the deepest
+/// overlap is smaller.
+const AT_PART: f64 = 0.05;
 
 /// Properties of the units of a run.
 #[derive(Debug, Clone)]
@@ -24,6 +28,8 @@ pub struct Model {
     pub ground: Material,
     /// x of both ends of each part of the ground with a surface of its own [m], and its contact properties.
     pub covers: Vec<([f64; 2], Material)>,
+    /// Parts of the structure that are not part of the bed, and their contact properties.
+    pub parts: Vec<(Part, Material)>,
     /// Contact law.
     pub law: ContactLawName,
     /// Acceleration of gravity [m/s2].
@@ -49,6 +55,7 @@ impl Model {
         };
         // The case validation allows the breakage analysis only for units of one group.
         let group = &units.groups[0];
+        let in_water = site.parts.iter().filter(|part| !matches!(part.shape, PartShape::Bed(_)));
         Self {
             gyration: group.shape.unit().inertia(1.0),
             shape: group.shape.clone(),
@@ -57,6 +64,9 @@ impl Model {
             material: material(group.material),
             ground: material(units.ground_material),
             covers: site.covers.iter().map(|cover| (cover.x, material(cover.material))).collect(),
+            parts: in_water
+                .map(|part| (part.clone(), material(part.material.unwrap_or(units.ground_material))))
+                .collect(),
             law,
             gravity,
         }
@@ -70,7 +80,13 @@ impl Model {
             Feature::Ground { .. } => {
                 self.covers.iter().rfind(|(x, _)| within(x)).map_or(&self.ground, |(_, material)| material)
             }
-            _ => &self.ground,
+            Feature::Terrain { .. } => {
+                let distance = |(part, _): &(Part, Material)| part.distance(event.point.into()).abs();
+                let touched = self.parts.iter().filter(|part| distance(part) < AT_PART * self.shape.height());
+                let nearest = touched.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+                nearest.map_or(&self.ground, |(_, material)| material)
+            }
+            Feature::Wall { .. } => &self.ground,
         }
     }
 

@@ -36,7 +36,7 @@ struct Checkpoint {
 }
 
 /// Version of the checkpoint layout; increased when the layout changes.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// A checkpoint as it is stored. A damaged number can be valid JSON, so that only the checksum reveals the damage.
 #[derive(Debug, Serialize, Deserialize)]

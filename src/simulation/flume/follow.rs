@@ -51,7 +51,9 @@ impl Simulation {
             if !domain.regions[0].continues[end] || (travel - outwards * self.moved[end]).abs() < hop {
                 return self.moved[end];
             }
-            let hops = (travel / hop).round().min((room[end] / hop).floor().max(0.0));
+            // Parts and obstacles are in the finest region at the start, and stay in it.
+            let least = if self.case.has_parts_in_water() { 0.0 } else { f64::NEG_INFINITY };
+            let hops = (travel / hop).round().min((room[end] / hop).floor().max(0.0)).max(least);
             outwards * hops * hop
         })
     }

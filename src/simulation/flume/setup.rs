@@ -128,6 +128,8 @@ impl Simulation {
         };
         let mut simulation = region(0)?;
         simulation.coarse = (1..regions.len()).map(region).collect::<Result<_, _>>()?;
+        // Parts of the bed can extend beyond the finest region.
+        simulation.part_faces = part_faces(&case, &outline(&case, [None; 2]));
         simulation.case = case.clone();
         simulation.moved = moved;
         Ok(simulation)
@@ -178,7 +180,7 @@ impl Simulation {
         let solver = device.solver(parameters(&case), [low, high], allowed)?;
         let mut simulation = Self {
             bins_near_surfaces: bins_near_surfaces(&case, &outline, solver.grid()),
-            part_faces: part_faces(&case, &outline),
+            part_faces: Vec::new(),
             solver,
             statistics: Statistics::new(count),
             bounds: allowed,

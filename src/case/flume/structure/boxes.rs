@@ -62,12 +62,8 @@ pub(super) fn check(
 
 /// Returns true if a box is nearer than `gap` [m] to a part that is the same across the flume but not part of the bed.
 fn is_near_section(part: &Part, bounds: &AxisBox, gap: f64) -> bool {
-    let Some(polygon) = part.section() else { return false };
     let [low, high] = [bounds.low, bounds.high].map(|corner| DVec2::new(corner.x, corner.z));
-    let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    let nearest = |point: &DVec2| point.clamp(low, high).distance(*point);
-    corners.into_iter().any(|corner| polygon.distance(corner) < gap)
-        || polygon.points().iter().any(|point| nearest(point) < gap)
+    part.section().is_some_and(|polygon| polygon.is_near_box(low, high, gap))
 }
 
 fn check_one(

@@ -17,7 +17,8 @@ use super::part::{Part, PartShape};
 use crate::case::file::{BoxFile, DomainFile, PartFile, Sides};
 use crate::case::reading::check::Checker;
 use crate::geometry::axis_box::AxisBox;
-use crate::geometry::outline::Outline;
+use crate::geometry::outline::{Outline, polygon::Polygon, segments::left_normal};
+use crate::geometry::profile::Profile;
 use crate::rigid::Cover;
 
 /// Surroundings of the parts.
@@ -45,12 +46,6 @@ impl<'a> Room<'a> {
     }
 }
 
-/// A part that has been read, with its key in the case file.
-struct Entry {
-    key: String,
-    part: Part,
-}
-
 /// Reads the parts. Parts that lie on the bed become part of its profile. `materials` lists the material of each part.
 /// Returns all parts, whose places have not been checked.
 pub fn place_on_bed(
@@ -60,47 +55,69 @@ pub fn place_on_bed(
     room: &Room,
     check: &mut Checker,
 ) -> Option<Vec<Part>> {
-    let entries = read::read(file, materials, room, check)?;
-    let before = check.count();
-    let mut parts = Vec::new();
-    for Entry { key, part } in entries {
-        let PartShape::Section(polygon) = part.shape else {
-            parts.push(part);
-            continue;
-        };
-        let outline = Outline::new(&flume.profile.points().iter().map(|p| DVec2::from_array(*p)).collect::<Vec<_>>());
-        let both = outline.with(&polygon);
-        if both.segments() == outline.segments() {
-            let advice = "raise the part above the bed, or remove it";
-            check.reject(&key, "hidden in the bed", "above the bed at one place at least", advice);
+    let mut parts = read::read(file, materials, room, check)?;
+    // A part can lie on a part that follows in the list.
+    while let Some((index, raised)) =
+        parts.iter().enumerate().find_map(|(index, part)| Some((index, raise(part, flume)?)))
+    {
+        let part = &mut parts[index];
+        if let Some(material) = part.material.or(flume.material) {
+            flume.covers.push(Cover { x: raised.x, material });
         }
-        let shape = match both.as_profile() {
-            Some(profile) => {
-                let material = part.material.or(flume.material);
-                if let (Some(material), Some(x)) = (material, raised(&outline, &both)) {
-                    flume.covers.push(Cover { x, material });
-                }
-                flume.profile = profile;
-                PartShape::Bed(polygon)
-            }
-            None => PartShape::Section(polygon),
-        };
-        parts.push(Part { shape, ..part });
+        flume.profile = raised.profile;
+        if let PartShape::Section(polygon) = &part.shape {
+            part.shape = PartShape::Bed(polygon.clone());
+        }
+    }
+    let before = check.count();
+    for (index, part) in parts.iter().enumerate() {
+        if part.section().is_some_and(|polygon| added(&outline_of(flume), polygon).is_none()) {
+            let advice = "raise the part above the bed, or remove it";
+            let allowed = "above the bed at one place at least";
+            check.reject(&format!("structure[{index}]"), "hidden in the bed", allowed, advice);
+        }
     }
     (check.count() == before).then_some(parts)
 }
 
-/// Returns x of the two ends of the segments that a part adds to the outline of the bed [m].
-fn raised(before: &Outline, after: &Outline) -> Option<[f64; 2]> {
-    let middle_is_new = |[from, to]: &&[DVec2; 2]| !before.is_solid(0.5 * (from + to) - 1e-9 * (to - from).perp());
-    let new = after.segments().iter().filter(|segment| middle_is_new(segment));
-    new.map(|[from, to]| [from.x, to.x]).reduce(|[low, high], [from, to]| [low.min(from), high.max(to)])
+/// The bed with a part on it.
+struct Raised {
+    profile: Profile,
+    /// x of both ends of the part on the bed [m].
+    x: [f64; 2],
 }
 
-/// Checks the places of the parts and of the obstacles of the domain. `width` is the width of the domain [m]. Returns
-/// both; obstacles have the names `obstacle 1`, `obstacle 2`, ...
+/// Returns the bed with a part, if the part can become part of the bed.
+fn raise(part: &Part, flume: &Flume) -> Option<Raised> {
+    let (outline, polygon) = (outline_of(flume), part.section()?);
+    let profile = outline.with(polygon).as_profile()?;
+    Some(Raised { profile, x: added(&outline, polygon)? })
+}
+
+fn outline_of(flume: &Flume) -> Outline {
+    Outline::new(&flume.profile.points().iter().map(|p| DVec2::from_array(*p)).collect::<Vec<_>>())
+}
+
+/// Returns x of both ends of what a polygon adds to the outline of the bed [m]; `None` if it adds nothing.
+fn added(bed: &Outline, polygon: &Polygon) -> Option<[f64; 2]> {
+    let [low, high] = polygon.bounds();
+    let both = bed.with(polygon);
+    let is_there = |[from, to]: &&[DVec2; 2]| from.x.max(to.x) >= low.x && from.x.min(to.x) <= high.x;
+    // A corner of the polygon on the bed bends the bed by at most the distance at which both touch.
+    let is_new = |segment: &&[DVec2; 2]| {
+        let [from, to] = segment;
+        !bed.is_solid(0.5 * (from + to) - 2.0 * bed.touch() * left_normal(segment))
+    };
+    let new = both.segments().iter().filter(is_there).filter(is_new);
+    new.map(|[from, to]| [from.x.min(to.x), from.x.max(to.x)])
+        .reduce(|[low, high], [from, to]| [low.min(from), high.max(to)])
+}
+
+/// Checks the places of the parts, which are those of `file`, and of the obstacles of the domain. `width` is the width of
+/// the domain [m]. Returns both; obstacles have the names `obstacle 1`, `obstacle 2`, ...
 pub fn validate(
     parts: Vec<Part>,
+    file: &[PartFile],
     obstacles: &[BoxFile],
     flume: &Flume,
     width: f64,
@@ -110,7 +127,10 @@ pub fn validate(
     let before = check.count();
     sections::check(&parts, flume, room, check);
     let of_parts = parts.iter().enumerate().filter_map(|(index, part)| match &part.shape {
-        PartShape::Box(bounds) => Some((format!("structure[{index}].box"), *bounds)),
+        PartShape::Box(bounds) => {
+            let shape = if file.get(index).is_some_and(|part| part.stl.is_some()) { "stl" } else { "box" };
+            Some((format!("structure[{index}].{shape}"), *bounds))
+        }
         _ => None,
     });
     let of_domain = obstacles.iter().enumerate().map(|(index, file)| {
@@ -126,7 +146,7 @@ pub fn validate(
         };
         placed.push(Part { shape, ..part });
     }
-    let obstacle = |(index, bounds)| Part {
+    let obstacle = |(index, bounds): (usize, AxisBox)| Part {
         name: format!("obstacle {}", index + 1),
         shape: PartShape::Box(bounds),
         material: None,

@@ -1,10 +1,11 @@
 //! Reads the parts of a structure: polygons, boxes and STL surfaces.
 
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use glam::{DVec2, DVec3};
 
-use super::{Entry, Room};
+use super::Room;
 use crate::case::file::{PartFile, PartStlFile};
 use crate::case::flume::part::{Part, PartShape};
 use crate::case::reading::check::{Checker, as_text, more_than};
@@ -27,12 +28,12 @@ pub(super) fn read(
     materials: &[Option<usize>],
     room: &Room,
     check: &mut Checker,
-) -> Option<Vec<Entry>> {
+) -> Option<Vec<Part>> {
     if file.len() > MOST_PARTS {
         check.reject("structure", file.len(), format!("at most {MOST_PARTS} parts"), "join some parts");
         return None;
     }
-    let mut entries = Vec::new();
+    let mut parts = Vec::new();
     for (index, part) in file.iter().enumerate() {
         let key = format!("structure[{index}]");
         if part.name.trim().is_empty() || file[..index].iter().any(|other| other.name == part.name) {
@@ -41,9 +42,9 @@ pub(super) fn read(
         }
         let material = materials.get(index).copied().flatten();
         let shape = check.in_section(&key, |check| read_shape(part, room, check));
-        entries.push(shape.map(|shape| Entry { key, part: Part { name: part.name.clone(), shape, material } }));
+        parts.push(shape.map(|shape| Part { name: part.name.clone(), shape, material }));
     }
-    entries.into_iter().collect()
+    parts.into_iter().collect()
 }
 
 fn read_shape(part: &PartFile, room: &Room, check: &mut Checker) -> Option<PartShape> {
@@ -113,13 +114,22 @@ fn read_stl(file: &PartStlFile, room: &Room, check: &mut Checker) -> Option<Part
         }
     };
     let origin = DVec3::from_array(file.origin_m);
+    // Coordinates of a file are rounded. A face at a side or at an end of the domain lies exactly there.
+    let slack = SAME * solid.vertices().iter().map(|v| (*v + origin).abs().max_element()).fold(0.0, f64::max);
+    let snapped = |value: f64, to: &[f64]| to.iter().copied().find(|at| (at - value).abs() <= slack).unwrap_or(value);
     if let Some(bounds) = as_box(&solid) {
-        let AxisBox { mut low, mut high, .. } = bounds.shifted(origin);
+        let sides: Vec<f64> = [0.0].into_iter().chain(room.width).collect();
+        let corner = |at: DVec3| DVec3::new(snapped(at.x, &room.x), snapped(at.y, &sides), at.z);
+        let AxisBox { low, high, .. } = bounds.shifted(origin);
+        let (mut low, mut high) = (corner(low), corner(high));
         // A box that continues beyond the sides ends there.
         (low.y, high.y) = (low.y.max(0.0), high.y.min(room.width.unwrap_or(f64::INFINITY)));
         return Some(PartShape::Box(AxisBox::free(low, high)));
     }
-    let Some(section) = as_section(&solid, origin, room) else {
+    let section = as_section(&solid, origin, slack, room);
+    let Some(section) =
+        section.map(|points| points.into_iter().map(|[x, z]| [snapped(x, &room.x), z]).collect::<Vec<_>>())
+    else {
         let [low, high] = solid.bounds().map(|corner| corner + origin);
         let width = room.width.map_or_else(|| "the flume".to_owned(), |width| format!("y = 0 to {} m", as_text(width)));
         let given = format!("{shown}, from y = {} to {} m", as_text(low.y), as_text(high.y));
@@ -148,33 +158,28 @@ fn as_box(solid: &Solid) -> Option<AxisBox> {
 }
 
 /// Returns the corners [x, z] of the section of a surface that is the same across the flume [m], and has no holes.
-fn as_section(solid: &Solid, origin: DVec3, room: &Room) -> Option<Vec<[f64; 2]>> {
+/// Coordinates that differ by less than `slack` [m] are equal.
+fn as_section(solid: &Solid, origin: DVec3, slack: f64, room: &Room) -> Option<Vec<[f64; 2]>> {
     let [low, high] = solid.bounds();
-    let slack = SAME * low.abs().max(high.abs()).max(origin.abs()).max_element();
     let reaches = room.width.is_none_or(|width| low.y + origin.y <= slack && high.y + origin.y >= width - slack);
     let is_on = |v: u32, y: f64| (solid.vertices()[v as usize].y - y).abs() <= slack;
-    if !reaches || !(0..solid.vertices().len() as u32).all(|v| is_on(v, low.y) || is_on(v, high.y)) {
+    let all = 0..solid.vertices().len() as u32;
+    if !reaches || !all.clone().all(|v| is_on(v, low.y) || is_on(v, high.y)) {
         return None;
     }
-    // The faces at the lower end, and their edges that belong to one of these faces only.
+    // The faces at the lower end, and their edges that belong to one of these faces only: start and end of each.
     let at_end = solid.triangles().iter().filter(|triangle| triangle.iter().all(|v| is_on(*v, low.y)));
-    let mut border: Vec<[u32; 2]> = Vec::new();
-    for [a, b, c] in at_end {
-        for edge in [[*a, *b], [*b, *c], [*c, *a]] {
-            match border.iter().position(|other| *other == [edge[1], edge[0]]) {
-                Some(twin) => _ = border.swap_remove(twin),
-                None => border.push(edge),
-            }
-        }
+    let edges = at_end.flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);
+    let inner: HashSet<[u32; 2]> = edges.clone().collect();
+    let border: HashMap<u32, u32> = edges.filter(|[a, b]| !inner.contains(&[*b, *a])).map(|[a, b]| (a, b)).collect();
+    let first = *border.keys().min()?;
+    let (mut line, mut next) = (vec![first], *border.get(&first)?);
+    while next != first && line.len() < border.len() {
+        line.push(next);
+        next = *border.get(&next)?;
     }
-    let first = *border.first()?;
-    let (mut line, mut next) = (Vec::new(), first);
-    loop {
-        line.push(next[0]);
-        next = *border.iter().find(|edge| edge[0] == next[1])?;
-        if next == first || line.len() > border.len() {
-            break;
-        }
+    if next != first || line.len() != border.len() {
+        return None;
     }
     let point = |v: u32| {
         let DVec3 { x, z, .. } = solid.vertices()[v as usize] + origin;
@@ -189,8 +194,12 @@ fn as_section(solid: &Solid, origin: DVec3, room: &Room) -> Option<Vec<[f64; 2]>
         one.perp_dot(other).abs() > SAME * (one.length() * other.length() + slack * slack)
     };
     let section: Vec<[f64; 2]> = (0..count).filter(is_corner).map(|index| corners[index].to_array()).collect();
-    // The volume of a body that is the same across the flume is the area of its section times its width.
-    let volume = Polygon::new(&section).ok()?.area() * (high.y - low.y);
-    let is_uniform = (solid.volume_properties().volume / volume - 1.0).abs() < 1e-3;
-    (line.len() == border.len() && is_uniform).then_some(section)
+    if section.len() > MOST_CORNERS {
+        return None;
+    }
+    // All vertices at the other end lie on the same section; with a hole, the volume would be too small.
+    let polygon = Polygon::new(&section).ok()?;
+    let is_same = all.map(point).all(|at| polygon.nearest(at).distance(at) <= 2.0 * slack);
+    let volume = polygon.area() * (high.y - low.y);
+    (is_same && (solid.volume_properties().volume / volume - 1.0).abs() < 1e-3).then_some(section)
 }

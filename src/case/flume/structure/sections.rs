@@ -59,7 +59,8 @@ fn check_extent(key: &str, part: &Part, polygon: &Polygon, flume: &Flume, room: 
         let allowed = format!("within `{name}`, {} to {} m", as_text(ends[0]), as_text(ends[1]));
         check.reject(key, given, allowed, format!("move the part or lengthen `{name}`"));
     }
-    if high.y > room.top_z {
+    // The domain checks the level of the bed between its ends.
+    if high.y > room.top_z && !is_bed {
         let given = format!("up to z = {} m", as_text(high.y));
         let allowed = format!("at most {} m, the top of the walls", as_text(room.top_z));
         check.reject(key, given, allowed, "lower the part or raise `domain.top_z_m`");
@@ -87,7 +88,8 @@ fn samples(polygon: &Polygon, spacing: f64) -> impl Iterator<Item = (DVec2, DVec
 
 /// Checks that a part is thick enough for the particles, and that gaps beside it are wide enough for water.
 fn check_room(key: &str, part: &Part, polygon: &Polygon, outline: &Outline, dp: f64, check: &mut Checker) {
-    let is_open = |(at, normal): &(DVec2, DVec2)| !outline.is_solid(at + 1e-3 * dp * normal);
+    let in_front = (1e-3 * dp).max(2.0 * outline.touch());
+    let is_open = |(at, normal): &(DVec2, DVec2)| !outline.is_solid(at + in_front * normal);
     let (thinnest, narrowest) = (THINNEST * (1.0 - 1e-6) * dp, NARROWEST * (1.0 - 1e-6) * dp);
     let faces: Vec<(DVec2, DVec2)> = samples(polygon, dp).filter(is_open).collect();
     let nearest = |directed: f64, reach: f64| {

@@ -40,7 +40,7 @@ fn of_section(polygon: &Polygon, outline: &Outline, case: &Case) -> Vec<FacePoin
         let (count, normal) = ((edge[0].distance(edge[1]) / dp).ceil().max(1.0), left_normal(&edge));
         let length = edge[0].distance(edge[1]) / count;
         for at in (0..count as u32).map(|k| edge[0].lerp(edge[1], (f64::from(k) + 0.5) / count)) {
-            if outline.is_solid(at + IN_FRONT * dp * normal) {
+            if outline.is_solid(at + (IN_FRONT * dp).max(2.0 * outline.touch()) * normal) {
                 continue;
             }
             let area = length * dy * DVec3::new(normal.x, 0.0, normal.y);
