@@ -37,11 +37,6 @@ impl Part {
         }
     }
 
-    /// Returns the name for messages.
-    pub fn name_in_messages(&self) -> String {
-        format!("{:?}", self.name)
-    }
-
     /// Returns the box of a part that is one.
     pub fn as_box(&self) -> Option<&AxisBox> {
         match &self.shape {

@@ -204,7 +204,7 @@ fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain,
         check.reject(
             &format!("{path}.at_m"),
             format!("[{}, {}, {}]", as_text(x), as_text(y), as_text(z)),
-            format!("outside {}", part.name_in_messages()),
+            format!("outside {:?}", part.name),
             "there is no water inside: move the gauge to its face",
         );
     }

@@ -342,7 +342,7 @@ fn validate_outside_parts(placements: &[UnitPose], shape: &UnitShape, site: &Sit
         check.reject(
             ".",
             format!("unit {} with its centre at ({x}, {y}, {z}) m", index + 1),
-            format!("outside {}", part.name_in_messages()),
+            format!("outside {:?}", part.name),
             "move one of the two",
         );
     }

@@ -10,8 +10,9 @@ use crate::case::flume::part::Part;
 use crate::case::reading::check::{Checker, as_text, lower_limit, upper_limit};
 use crate::geometry::axis_box::AxisBox;
 
-/// Smallest allowed edge of a box without water [m].
-const THINNEST_DRY: f64 = 1e-6;
+/// Smallest allowed edge of a box without water [m]. The faces across the flume are long: much shorter edges would have
+/// no reliable normals.
+const THINNEST_DRY: f64 = 1e-3;
 
 /// Largest number of boxes in one case.
 const MOST_BOXES: usize = 1000;

@@ -86,7 +86,7 @@ fn samples(polygon: &Polygon, spacing: f64) -> impl Iterator<Item = (DVec2, DVec
     })
 }
 
-/// Checks that a part is thick enough for the particles, and that gaps beside it are wide enough for water.
+/// Checks that a part is thick enough for the particles, and that gaps next to it are wide enough for water.
 fn check_room(key: &str, part: &Part, polygon: &Polygon, outline: &Outline, dp: f64, check: &mut Checker) {
     let in_front = (1e-3 * dp).max(2.0 * outline.touch());
     let is_open = |(at, normal): &(DVec2, DVec2)| !outline.is_solid(at + in_front * normal);
