@@ -13,6 +13,8 @@ use crate::geometry::outline::{Outline, polygon::Polygon, segments::left_normal}
 pub(super) const THINNEST: f64 = 3.0;
 /// Width of the narrowest gap that water can enter, divided by the particle spacing dp [-].
 pub(super) const NARROWEST: f64 = 2.0;
+/// Smallest allowed size of a part [m].
+const SMALLEST: f64 = 1e-3;
 /// Parts overlap if points this far inside one of them are inside the other, divided by its size [-].
 const OVERLAP: f64 = 1e-4;
 
@@ -58,6 +60,11 @@ fn check_extent(key: &str, part: &Part, polygon: &Polygon, flume: &Flume, room: 
         let given = format!("from x = {} to {} m", as_text(low.x), as_text(high.x));
         let allowed = format!("within `{name}`, {} to {} m", as_text(ends[0]), as_text(ends[1]));
         check.reject(key, given, allowed, format!("move the part or lengthen `{name}`"));
+    }
+    let size = (high - low).max_element();
+    if size < SMALLEST {
+        let allowed = format!("at least {SMALLEST} m long or high");
+        check.reject(key, format!("{} m", as_text(size)), allowed, "write the coordinates in metres");
     }
     // The domain checks the level of the bed between its ends.
     if high.y > room.top_z && !is_bed {
