@@ -52,7 +52,7 @@ impl Tank {
         Self {
             solver: Solver::with_instructions(instructions, parameters, -margin, high),
             water: basin.fill(&tait),
-            boundary: Boundary::new(&walls, &[], &[(unit.to_vec(), usize::from(!unit.is_empty()))], tait.rho0),
+            boundary: Boundary::new(&walls, &[], &vec![unit; usize::from(!unit.is_empty())], tait.rho0),
         }
     }
 }

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::file::{BaseFile, BreakageFile, BreakageMaterialFile, ImpactMeasure, Joints, RerunMethod};
 use super::fracture::validate_concrete;
 use super::reading::check::{Checker, as_text, at_least, more_than};
+use super::units::Units;
 use super::units::shape::UnitShape;
-use super::units::{UnitGroup, Units};
 use crate::femdem::mesh;
 use crate::femdem::mesh::UnitMesh;
 
@@ -75,11 +75,15 @@ pub(super) fn validate(
     check: &mut Checker,
 ) -> Option<BreakageSettings> {
     let before = check.count();
-    let [UnitGroup { shape, .. }] = &units.groups[..] else {
+    let [group] = &units.groups[..] else {
         let given = format!("given with {} groups of units", units.groups.len());
         check.reject("breakage", given, "left out unless there is one group", "analyse each group in a run of its own");
         return None;
     };
+    if group.models.len() > 1 {
+        check.reject("breakage", "given with rocks", "left out with rocks", "analyse units of concrete");
+        return None;
+    }
     let advice = "50 for a 1:50 model, 1 for units at prototype scale";
     check.number("breakage.scale", file.scale, at_least(1e-2).up_to(1e3), "", advice);
     check.number("breakage.friction", file.friction, at_least(0.0).up_to(10.0), "", "rough concrete has 0.6");
@@ -119,7 +123,7 @@ pub(super) fn validate(
     if file.select.worst == Some(0) {
         check.reject("breakage.select.worst", 0, "at least 1", "leave out `breakage` to skip the analysis");
     }
-    let (mesh_file, mesh) = read_mesh(file, shape, name, check)?;
+    let (mesh_file, mesh) = read_mesh(file, group.shape(), name, check)?;
     if check.count() > before {
         return None;
     }

@@ -9,8 +9,9 @@ use super::reading::check::{Checker, at_least, more_than};
 use super::reading::document::{Document, InputKind};
 use super::reading::error::CaseErrors;
 use super::units::contact::{self, Contact};
+use super::units::group::UnitGroup;
 use super::units::materials::{self, GroundNames, Material};
-use super::units::{self, MAX_UNITS, Surroundings, UnitGroup, Units};
+use super::units::{self, MAX_UNITS, Surroundings, Units};
 use super::{dry_test, flume_case};
 use crate::geometry::outline::polygon::Polygon;
 
@@ -99,7 +100,7 @@ impl LayerJob {
     /// Returns the slope area under layers, divided by D_n^2 [-], with the nominal diameter D_n of a unit.
     pub fn area(&self, layers: &Layers) -> f64 {
         let length: f64 = self.slope(layers).windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum();
-        length * self.site.width / self.group(layers).shape.nominal_diameter().powi(2)
+        length * self.site.width / self.group(layers).nominal_diameter.powi(2)
     }
 
     /// Returns the number of units in layers.

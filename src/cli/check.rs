@@ -215,7 +215,7 @@ fn print_units(units: &Units) {
 }
 
 fn print_group(group: &UnitGroup) {
-    let shape = &group.shape;
+    let shape = group.shape();
     println!(
         "  units       {} ({}) of {} m and {} kg",
         group.members.len(),

@@ -1,7 +1,7 @@
 //! Estimate of the size of the output files from the case alone.
 
 use super::columns;
-use crate::case::{Case, FluidField, Quantity, UnitGroup, Units};
+use crate::case::{Case, FluidField, Quantity, UnitGroup, UnitModel, Units, group};
 
 /// Mean size of a number in a CSV table, including its comma [bytes]. In the tables of one run: 19.0 to 19.6 bytes.
 const BYTES_PER_NUMBER: f64 = 19.0;
@@ -82,12 +82,13 @@ fn water_surface_bytes(case: &Case, snapshots: f64) -> f64 {
 
 fn surfaces_bytes(case: &Case, snapshots: f64) -> f64 {
     let Some(units) = case.units.as_ref().filter(|_| snapshots > 0.0) else { return 0.0 };
-    let of_group = |group: &UnitGroup| {
-        let (vertices, triangles) = group.shape.unit().film_surface();
+    let of_model = |(_, model): (&UnitGroup, &UnitModel)| {
+        let (vertices, triangles) = model.shape.unit().film_surface();
         let (vertices, triangles) = (vertices.len() as f64, triangles.len() as f64);
-        group.members.len() as f64 * (snapshots * BYTES_PER_SURFACE_POINT * vertices + BYTES_PER_TRIANGLE * triangles)
+        snapshots * BYTES_PER_SURFACE_POINT * vertices + BYTES_PER_TRIANGLE * triangles
     };
-    RESERVED + units.groups.iter().map(of_group).sum::<f64>()
+    let sizes: Vec<f64> = group::models(&units.groups).map(of_model).collect();
+    RESERVED + group::model_of_each(&units.groups).map(|model| sizes[model]).sum::<f64>()
 }
 
 fn table_bytes(case: &Case, rows: f64) -> f64 {

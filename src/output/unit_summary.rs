@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::case::{DamageLimits, DamageMeasure};
 
-/// Results for a group of equal units. Fixed units have no damage.
+/// Results for a group of units. Fixed units have no damage.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct GroupSummary {
     /// Name.
@@ -14,7 +14,10 @@ pub struct GroupSummary {
     /// True if the units cannot move.
     #[serde(default)]
     pub fixed: bool,
-    /// Nominal diameter D_n = V^(1/3) of a unit of the volume V [m].
+    /// Number of shapes, which the units have in turn; 0 means 1.
+    #[serde(default)]
+    pub models: u32,
+    /// Nominal diameter D_n = V^(1/3) of a unit of the volume V [m]; for rocks, the median D_n50.
     #[serde(default)]
     pub nominal_diameter_m: f64,
     /// Way that counts for the damage.
@@ -44,6 +47,11 @@ pub struct GroupSummary {
 }
 
 impl GroupSummary {
+    /// Returns the number of shapes.
+    pub fn shapes(&self) -> u32 {
+        self.models.max(1)
+    }
+
     /// Returns true if the unit with this number belongs to the group.
     pub fn contains(&self, unit: u32) -> bool {
         (self.units[0]..=self.units[1]).contains(&unit)

@@ -17,7 +17,7 @@ pub struct UnitSurface {
 }
 
 impl UnitSurface {
-    /// Name of the surface file of the first group of units in a run folder.
+    /// Name of the surface file of the first model of units in a run folder.
     pub const FILE: &str = "unit_surface.json";
 
     /// Copies the surface of a solid.
@@ -26,17 +26,18 @@ impl UnitSurface {
         Self { vertices_m, triangles: solid.triangles().to_vec() }
     }
 
-    /// Returns the name of the surface file of a group of equal units in a run folder; `group` counts from 0.
-    pub fn file_of(group: usize) -> String {
-        if group == 0 { Self::FILE.to_owned() } else { format!("unit_surface_{}.json", group + 1) }
+    /// Returns the name of the surface file of a model of units in a run folder; `model` counts the models of all groups
+    /// from 0.
+    pub fn file_of(model: usize) -> String {
+        if model == 0 { Self::FILE.to_owned() } else { format!("unit_surface_{}.json", model + 1) }
     }
 
-    /// Writes the surface of each group of equal units into a run folder.
+    /// Writes the surface of each model of units into a run folder.
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn write_groups<'a>(groups: impl Iterator<Item = &'a Solid>, dir: &Path) -> Result<(), OutputError> {
-        groups.enumerate().try_for_each(|(group, solid)| Self::of(solid).write(&dir.join(Self::file_of(group))))
+    pub fn write_models<'a>(models: impl Iterator<Item = &'a Solid>, dir: &Path) -> Result<(), OutputError> {
+        models.enumerate().try_for_each(|(model, solid)| Self::of(solid).write(&dir.join(Self::file_of(model))))
     }
 
     /// Writes the surface to `path`.

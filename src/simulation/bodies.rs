@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use crate::{
-    case::{self, ContactLawName, Part, PartShape, Sides, Site, UnitGroup, UnitPose, Units},
+    case::{self, ContactLawName, Part, PartShape, Sides, Site, UnitGroup, UnitModel, UnitPose, Units, group},
     geometry::{axis_box::AxisBox, outline::polygon::Polygon, terrain::Terrain},
     rigid::{self, Body, BodyKind, BodyShape, BodyState, ContactModel, Ground, RigidSetup, TriangleSurface},
 };
@@ -28,17 +28,15 @@ pub fn rigid_setup(
         surfaces_of(part, site).into_iter().map(move |surface| (Arc::new(surface), material))
     };
     let surfaces = terrain.chain(site.parts.iter().flat_map(of_part));
-    let kind = |group: &UnitGroup| BodyKind {
-        shape: BodyShape::from_unit(group.shape.unit(), group.mass),
+    let kind = |(group, model): (&UnitGroup, &UnitModel)| BodyKind {
+        shape: BodyShape::from_unit(model.shape.unit(), model.mass),
         material: group.material,
         is_fixed: group.is_fixed,
     };
-    let kind_of_each =
-        units.groups.iter().enumerate().flat_map(|(kind, group)| group.members.clone().map(move |_| kind));
     let body = |(kind, pose): (usize, &UnitPose)| Body { kind, state: BodyState::at_rest(pose.centre, pose.rotation) };
     RigidSetup {
-        kinds: units.groups.iter().map(kind).collect(),
-        bodies: kind_of_each.zip(&units.placements).map(body).collect(),
+        kinds: group::models(&units.groups).map(kind).collect(),
+        bodies: group::model_of_each(&units.groups).zip(&units.placements).map(body).collect(),
         materials: (0..materials.len()).map(material).collect(),
         pairs: units.pairs.clone(),
         ground: Some(Ground {

@@ -204,7 +204,7 @@ impl Towed {
         let corners = [[middle, top], [0.0, top], [0.0, 0.0], [length, 0.0], [length, top], [middle, top]];
         let outline = Outline::new(&corners.map(DVec2::from_array));
         let walls = outline_particles(&outline, &across, dp, 3, parameters.kernel.support());
-        let boundary = Boundary::new(&walls, &[], &[(self.particles.clone(), self.places.len())], RHO0);
+        let boundary = Boundary::new(&walls, &[], &vec![&self.particles[..]; self.places.len()], RHO0);
         let mut water = basin.fill(&parameters.tait);
         water.density.fill(parameters.tait.density(PRESSURE * RHO0 * self.speed.powi(2)));
         // Bodies that cross the periodic sides also remove water at the other side.

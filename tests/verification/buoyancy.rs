@@ -73,7 +73,7 @@ fn deviation(case: &Value) -> Deviation {
     let units = tank.units.as_ref().unwrap();
     // The unit stands upright, so only its height matters.
     let displaced =
-        |level: f64| volume_below(units.groups[0].shape.unit().solid(), level - units.states()[0].position.z);
+        |level: f64| volume_below(units.groups[0].shape().unit().solid(), level - units.states()[0].position.z);
     let volume = displaced(level);
     let archimedes = RHO0 * GRAVITY * volume;
     let deviation =

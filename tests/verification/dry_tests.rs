@@ -102,6 +102,28 @@ fn a_placed_layer_rests_and_can_be_run() {
 }
 
 #[test]
+fn a_placed_layer_of_rocks_rests_and_can_be_run() {
+    let mut case = small_layer();
+    case["flume"]["bed_m"] = json!([[0.0, 0.0], [1.0, 0.0]]);
+    case["units"] = json!({ "name": "rock", "shape": "rock", "rock": { "d_n50_m": 0.03, "grading": 1.4, "seed": 2 },
+        "mass_kg": 0.072, "material": "mortar",
+        "armour": { "x_m": [0.06, 0.24], "layers": 2, "packing_density": 1.2, "seed": 5 } });
+    let job = LayerJob::from_str(&case.to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
+    let placed = place(&job, |_, _| ()).unwrap();
+    let rocks = &placed.groups[0];
+    println!("{} rocks, packing density {:.3}, unrest {:.1e}", rocks.units.len(), rocks.packing_density, placed.unrest);
+    // Limits: as for the layer of Tetrapods.
+    assert!(rocks.is_complete() && placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
+    case["units"]["poses"] = serde_json::to_value(&placed.file("rocks", 1).poses).unwrap();
+    let mut run = DryTest::new(dry_case(&case)).unwrap();
+    rayon::scope(|_| (0..200).for_each(|_| run.advance(1.0).unwrap()));
+    let moved = run.world.states().iter().zip(&run.start).map(|(now, start)| now.position.distance(start.position));
+    let largest = moved.fold(0.0, f64::max);
+    println!("largest displacement within 0.2 s: {:.1e} D_n50", largest / 0.03);
+    assert!(largest < 5e-3 * 0.03, "{largest}");
+}
+
+#[test]
 fn a_layer_is_the_same_for_any_number_of_threads() {
     let mut case = small_layer();
     case["units"]["armour"]["x_m"] = json!([0.06, 0.18]);

@@ -60,7 +60,7 @@ fn groups_at_rest_in_still_water_stay_where_they_are() {
     assert!((contact.z / weight - 1.0).abs() < 0.01 && water.length() == 0.0);
     // The Tetrapods have the buoyancy of Archimedes within 5 %, at 5.5 particles over their height.
     for (unit, load) in units.fluid_loads[2..4].iter().enumerate() {
-        let volume = units.groups[1].shape.volume();
+        let volume = units.groups[1].shape().volume();
         println!("buoyancy of Tetrapod {unit}: {:.3} of Archimedes' force", load.force.z / (1000.0 * GRAVITY * volume));
         assert!((load.force.z / (1000.0 * GRAVITY * volume) - 1.0).abs() < 0.05);
     }

@@ -37,6 +37,7 @@ mod two_dimensional_units;
 mod unit_in_stream;
 mod violent_water;
 mod viscous_flow;
+mod wave_on_wall;
 mod wavemaker;
 mod waves;
 mod wedge;

@@ -169,7 +169,7 @@ impl BareTank {
         Self {
             solver: Solver::new(parameters, -margin, DVec3::new(side, width, side) + margin),
             water: basin.fill(&parameters.tait),
-            boundary: Boundary::new(&fixed, &[], &[(unit.to_vec(), usize::from(!unit.is_empty()))], RHO0),
+            boundary: Boundary::new(&fixed, &[], &vec![unit; usize::from(!unit.is_empty())], RHO0),
         }
     }
 

@@ -15,6 +15,7 @@ mod numerics;
 mod objects;
 mod output;
 mod reference;
+mod shape;
 mod structure;
 mod sweep;
 mod wave_source;
@@ -33,13 +34,13 @@ pub use groups::UnitGroupsFile;
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Scheme, SchemeDefaults, Viscosity, WallSlip};
 pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, DamageMeasure, ElevationFile, ForceFile, FrictionFile,
-    GaugeFile, MaterialFile, Orientation, PlacedGroupFile, PlacementFile, PointFile, PoseFile, ScatterFile, Shape,
-    StlFile, UnitsFile,
+    GaugeFile, MaterialFile, Orientation, PlacedGroupFile, PlacementFile, PointFile, PoseFile, ScatterFile, UnitsFile,
 };
 pub use output::{AtRestFile, FluidField, OutputFile, StopFile};
 pub use reference::{ReferenceFile, ReferenceWaveFile, ReferenceWaveKind, SeriesFile, SeriesRole};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+pub use shape::{RockFile, Shape, StlFile};
 pub use structure::{PartFile, PartStlFile};
 pub use sweep::{Combine, NormalFile, RandomFile, SweepFile, VaryFile};
 pub use wave_source::{ExternalWaveFile, OpenfoamFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile};

@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A group of armour units of the same shape and mass. The case places them in a row across the flume or in armour
+use super::shape::{RockFile, Shape, StlFile};
+
+/// A group of armour units of the same shape and mass, or of rocks. The case places them in a row across the flume or in armour
 /// layers, or it lists their centres or poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -26,10 +28,13 @@ pub struct UnitsFile {
     /// Waist ratio of a Dolos [-]: width of the stem / height of the unit. Default: 0.34.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub waist_ratio: Option<f64>,
+    /// Sizes of rocks. Required for the shape `rock`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rock: Option<RockFile>,
     /// STL files of a unit. Required for the shape `stl`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stl: Option<StlFile>,
-    /// Mass of a unit [kg].
+    /// Mass of a unit [kg]; for rocks, the median mass M50 of a rock of the size D_n50.
     pub mass_kg: f64,
     /// Material of the units: a name in `materials`.
     pub material: String,
@@ -185,58 +190,6 @@ pub struct PlacedGroupFile {
     pub packing_density: f64,
     /// Pose of each unit.
     pub poses: Vec<PoseFile>,
-}
-
-/// Shape of an armour unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Shape {
-    /// Tetrapod (Danel & Greslou 1962).
-    Tetrapod,
-    /// Cuboid (rectangular block).
-    Cuboid,
-    /// Dolos (Merrifield 1974).
-    Dolos,
-    /// Core-Loc (Melby & Turk 1997).
-    CoreLoc,
-    /// Cube with a groove in each side face (Antifer block).
-    GroovedCube,
-    /// Any shape, given by STL files.
-    Stl,
-}
-
-impl Shape {
-    /// Returns the name of the shape in case files.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Tetrapod => "tetrapod",
-            Self::Cuboid => "cuboid",
-            Self::Dolos => "dolos",
-            Self::CoreLoc => "core_loc",
-            Self::GroovedCube => "grooved_cube",
-            Self::Stl => "stl",
-        }
-    }
-}
-
-/// STL files of a unit, ASCII or binary. Paths are relative to the folder of the case file. In the files, the
-/// unit stands upright and z points upwards.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct StlFile {
-    /// Path of the STL file with the closed surface of the unit.
-    pub path: String,
-    /// Length unit of the files in metres: 1 for metres, 0.001 for millimetres.
-    #[serde(default = "default_scale")]
-    pub scale: f64,
-    /// Paths of STL files with convex parts that together fill the unit. This is the precise way. By default, the
-    /// program divides the unit into convex parts by plane cuts; `breakwater check` prints their volume error.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub parts: Vec<String>,
-}
-
-fn default_scale() -> f64 {
-    1.0
 }
 
 /// Rotation of the units about the vertical axis, for a row and for `centres_m`.

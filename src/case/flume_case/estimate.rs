@@ -8,7 +8,9 @@ use crate::case::file::{Sides, Viscosity, WallSlip};
 use crate::case::flume::domain::Water;
 use crate::case::flume::part::Part;
 use crate::case::flume::regions::Region;
-use crate::case::units::UnitGroup;
+use crate::case::units::Units;
+use crate::case::units::group::{UnitGroup, UnitModel};
+use crate::case::units::shape::UnitShape;
 use crate::geometry::{axis_box::AxisBox, outline::polygon::Polygon, profile::Profile};
 use crate::sph::solver::time_step::viscous_limit;
 
@@ -126,13 +128,13 @@ impl Case {
         };
         solid += self.flume.parts.iter().filter_map(Part::section).map(of_section).sum::<f64>();
         // With inviscid walls, units that are not cuboids have particles of half the spacing.
-        let finer = |group: &UnitGroup| {
-            let is_finer = self.numerics.wall_slip == WallSlip::Inviscid && group.shape.unit().as_box().is_none();
+        let finer = |shape: &UnitShape| {
+            let is_finer = self.numerics.wall_slip == WallSlip::Inviscid && shape.unit().as_box().is_none();
             if is_finer { 8.0 } else { 1.0 }
         };
-        let of_group =
-            |group: &UnitGroup| finer(group) * group.members.len() as f64 * group.shape.volume() / group.slices;
-        let unit_volume: f64 = self.units.iter().flat_map(|units| &units.groups).map(of_group).sum();
+        let of_unit =
+            |(group, model): (&UnitGroup, &UnitModel)| finer(&model.shape) * model.shape.volume() / group.slices;
+        let unit_volume: f64 = self.units.iter().flat_map(Units::each).map(of_unit).sum();
         let (fluid, boundary, units) =
             (water_area * domain.width * per_volume, solid * per_volume, unit_volume * per_volume);
         let Numerics { h, cfl, viscosity, nu, .. } = self.numerics;

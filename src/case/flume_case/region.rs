@@ -8,7 +8,8 @@ use crate::case::flume::part::{Part, PartShape};
 use crate::case::flume::regions::Region;
 use crate::case::flume_case::numerics::Numerics;
 use crate::case::reading::check::{Checker, as_text};
-use crate::case::units::{UnitGroup, UnitPose};
+use crate::case::units::UnitPose;
+use crate::case::units::group::{UnitGroup, UnitModel};
 
 impl Case {
     /// Returns the case of one region: its domain includes the buffers beyond the ends where water of other regions
@@ -66,11 +67,11 @@ pub(super) fn validate_contents(case: &Case, check: &mut Checker) {
     let in_water = case.flume.parts.iter().filter(|part| !matches!(part.shape, PartShape::Bed(_)));
     let of_obstacles = in_water.map(Part::x);
     let of_units = case.units.iter().flat_map(|units| {
-        let extent = |(pose, group): (&UnitPose, &UnitGroup)| {
-            let tips = 0.5 * group.shape.height();
+        let extent = |(pose, (_, model)): (&UnitPose, (&UnitGroup, &UnitModel))| {
+            let tips = 0.5 * model.shape.height();
             [pose.centre.x - tips, pose.centre.x + tips]
         };
-        units.placements.iter().zip(units.group_of_each()).map(extent)
+        units.placements.iter().zip(units.each()).map(extent)
     });
     for (what, extents) in
         [("parts of the structure and obstacles", of_obstacles.collect::<Vec<_>>()), ("units", of_units.collect())]

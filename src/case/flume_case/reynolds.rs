@@ -3,7 +3,8 @@
 use super::Case;
 use crate::case::file::{Sides, Viscosity};
 use crate::case::reading::check::{Checker, as_text};
-use crate::case::units::{UnitGroup, UnitPose};
+use crate::case::units::UnitPose;
+use crate::case::units::group::{UnitGroup, UnitModel};
 
 /// Reynolds number of a unit below which the validation gives a warning [-]. At Reynolds numbers from 40 to 70, the
 /// force on a unit at rest is proportional to the velocity of the water. At 160, the force is not proportional to it
@@ -32,9 +33,10 @@ fn long_wave_velocity(case: &Case, x: f64) -> Option<f64> {
 /// Returns the largest Reynolds number of all units [-]; its length is the height of a unit.
 fn reynolds_number(case: &Case) -> Option<f64> {
     let units = case.units.as_ref()?;
-    let of_unit =
-        |(unit, group): (&UnitPose, &UnitGroup)| Some(long_wave_velocity(case, unit.centre.x)? * group.shape.height());
-    let largest = units.placements.iter().zip(units.group_of_each()).filter_map(of_unit).reduce(f64::max)?;
+    let of_unit = |(unit, (_, model)): (&UnitPose, (&UnitGroup, &UnitModel))| {
+        Some(long_wave_velocity(case, unit.centre.x)? * model.shape.height())
+    };
+    let largest = units.placements.iter().zip(units.each()).filter_map(of_unit).reduce(f64::max)?;
     Some(largest / artificial_viscosity(case).filter(|nu| *nu > 0.0)?)
 }
 

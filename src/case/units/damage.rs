@@ -1,6 +1,5 @@
 //! When a unit counts as damaged.
 
-use super::shape::UnitShape;
 use crate::case::file::{DamageMeasure, UnitsFile};
 use crate::case::reading::check::{Checker, more_than};
 
@@ -41,8 +40,8 @@ impl From<f64> for DamageLimits {
     }
 }
 
-/// Validates the limits of a group of units.
-pub(super) fn validate(file: &UnitsFile, shape: &UnitShape, check: &mut Checker) -> DamageLimits {
+/// Validates the limits of a group of units; D_n = `nominal_diameter` [m].
+pub(super) fn validate(file: &UnitsFile, nominal_diameter: f64, check: &mut Checker) -> DamageLimits {
     if let Some(distance) = file.damage_distance_m {
         let advice = "the nominal diameter D_n of the unit is usual";
         check.number(".damage_distance_m", distance, more_than(0.0).up_to(1000.0), "m", advice);
@@ -56,7 +55,7 @@ pub(super) fn validate(file: &UnitsFile, shape: &UnitShape, check: &mut Checker)
     };
     DamageLimits {
         measure: file.damage_measure.unwrap_or(measure),
-        distance: file.damage_distance_m.unwrap_or(shape.nominal_diameter()),
+        distance: file.damage_distance_m.unwrap_or(nominal_diameter),
         rotation_deg,
     }
 }

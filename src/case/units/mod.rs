@@ -2,7 +2,8 @@
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | [`shape`], [`stl`] | shape of a unit, from the catalogue or from STL files |
+//! | [`group`] | a group of units |
+//! | [`shape`], [`stl`], [`rock`] | shape of a unit, from the catalogue or from STL files; shapes of rocks |
 //! | [`pose`] | pose of a unit: position and rotation |
 //! | [`row`], [`centres`], [`poses`] | the three ways to place units |
 //! | [`planar`] | checks for units in two dimensions |
@@ -12,21 +13,21 @@
 mod centres;
 pub mod contact;
 pub mod damage;
+pub mod group;
 pub mod materials;
 mod planar;
 mod pose;
 mod poses;
 mod resistance;
+mod rock;
 mod row;
 pub mod shape;
 mod stl;
 
-use std::ops::Range;
-
 use glam::DVec3;
 
 use self::contact::Contact;
-use self::damage::DamageLimits;
+use self::group::{UnitGroup, UnitModel};
 use self::materials::Materials;
 pub use self::pose::UnitPose;
 use self::shape::{UnitKind, UnitShape};
@@ -44,7 +45,7 @@ const MOST_GROUPS: usize = 100;
 /// The armour units; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Units {
-    /// Groups of equal units, at least one.
+    /// Groups of units, at least one.
     pub groups: Vec<UnitGroup>,
     /// Initial pose of each unit, group by group. In a row, units are sorted by increasing y; otherwise by their order
     /// in the file.
@@ -55,41 +56,20 @@ pub struct Units {
     pub pairs: Vec<MaterialPair>,
 }
 
-/// A group of equal units; SI units.
-#[derive(Debug, Clone, PartialEq)]
-pub struct UnitGroup {
-    /// Name in reports.
-    pub name: String,
-    /// Shape of a unit.
-    pub shape: UnitShape,
-    /// Mass of a unit [kg].
-    pub mass: f64,
-    /// Indices of the units of this group in [`Units::placements`].
-    pub members: Range<usize>,
-    /// Fixed units do not move.
-    pub is_fixed: bool,
-    /// In two dimensions, width of a unit / thickness of the particle layer [-]; 1 in three dimensions.
-    pub slices: f64,
-    /// Limits above which a unit counts as damaged or rotated.
-    pub limits: DamageLimits,
-    /// Material of the units, an index into `Case::materials`.
-    pub material: usize,
-}
-
 impl Units {
     /// Returns the number of units.
     pub fn count(&self) -> usize {
         self.placements.len()
     }
 
-    /// Returns the group of each unit.
-    pub fn group_of_each(&self) -> impl Iterator<Item = &UnitGroup> {
-        self.groups.iter().flat_map(|group| group.members.clone().map(move |_| group))
+    /// Returns group and model of each unit.
+    pub fn each(&self) -> impl Iterator<Item = (&UnitGroup, &UnitModel)> {
+        group::each(&self.groups)
     }
 
     /// Returns the height of the highest unit [m].
     pub fn tallest(&self) -> f64 {
-        self.groups.iter().map(|group| group.shape.height()).fold(0.0, f64::max)
+        self.groups.iter().map(UnitGroup::height).fold(0.0, f64::max)
     }
 
     /// Returns name and content of the STL files that a run saves next to its case file; empty for other shapes.
@@ -101,7 +81,7 @@ impl Units {
     /// placement file. Adds the content of the files to `read`, for the hash of the case.
     pub(super) fn make_self_contained(&self, file: &mut UnitGroupsFile, read: &mut Vec<u8>) {
         for (group, file) in self.groups.iter().zip(file.groups_mut()) {
-            if let UnitKind::Stl(unit) = &group.shape.kind {
+            if let UnitKind::Stl(unit) = &group.shape().kind {
                 file.stl = Some(unit.entry());
                 group.files().iter().for_each(|(_, content)| read.extend(content));
             }
@@ -111,12 +91,6 @@ impl Units {
                 file.poses = Some(self.placements[group.members.clone()].iter().map(pose).collect());
             }
         }
-    }
-}
-
-impl UnitGroup {
-    fn files(&self) -> &[(String, Vec<u8>)] {
-        if let UnitKind::Stl(unit) = &self.shape.kind { unit.files() } else { &[] }
     }
 }
 
@@ -192,7 +166,7 @@ pub(super) fn placed(
 ) -> Option<UnitGroup> {
     let poses = place(file, unplaced.as_ref(), around, check);
     let (unplaced, poses) = (unplaced?, poses?);
-    let slices = around.site.map_or(1.0, |site| planar::slices(&unplaced.shape, site));
+    let slices = around.site.map_or(1.0, |site| planar::slices(unplaced.shape(), site));
     let members = placements.len()..placements.len() + poses.len();
     placements.extend(poses);
     Some(UnitGroup { members, slices, ..unplaced })
@@ -219,11 +193,14 @@ pub(super) fn validate_unplaced(
 ) -> Option<UnitGroup> {
     let before = check.count();
     let stem = if index == 0 { "unit".to_owned() } else { format!("unit_{}", index + 1) };
-    let shape = shape::validate(file, around.contact.rounding_share, around.name, &stem, check);
-    if let Some(shape) = &shape {
-        shape::validate_mass(file.mass_kg, shape, around.water.as_ref().map(|water| water.rho0), check);
-    }
-    let limits = shape.as_ref().map(|shape| damage::validate(file, shape, check));
+    let shapes = shape::validate(file, around.contact.rounding_share, around.name, &stem, check);
+    // Rocks have the size D_n50.
+    let nominal_diameter = file.rock.map(|rock| rock.d_n50_m).or(shapes.as_ref().map(|all| all[0].nominal_diameter()));
+    let limits = nominal_diameter.map(|diameter| {
+        let volume = shapes.as_ref().filter(|all| all.len() == 1).map_or(diameter.powi(3), |all| all[0].volume());
+        shape::validate_mass(file.mass_kg, volume, around.water.as_ref().map(|water| water.rho0), check);
+        damage::validate(file, diameter, check)
+    });
     let material = materials::find(&around.materials.list, &file.material, ".material", check);
     if !around.ground_named {
         check.reject(
@@ -236,18 +213,23 @@ pub(super) fn validate_unplaced(
     if check.count() > before {
         return None;
     }
-    let shape = shape?;
+    let (shapes, nominal_diameter) = (shapes?, nominal_diameter?);
+    let mass = |shape: &UnitShape| match file.rock {
+        Some(rock) => rock::mass(shape, rock.d_n50_m, file.mass_kg),
+        None => file.mass_kg,
+    };
     Some(UnitGroup {
         name: file.name.clone().unwrap_or_else(|| match all {
             UnitGroupsFile::One(_) => "units".to_owned(),
             UnitGroupsFile::Several(_) => format!("group {}", index + 1),
         }),
+        models: shapes.into_iter().map(|shape| UnitModel { mass: mass(&shape), shape }).collect(),
+        nominal_diameter,
         mass: file.mass_kg,
         members: 0..0,
         is_fixed: file.fixed,
         slices: 1.0,
         limits: limits?,
-        shape,
         material: material?,
     })
 }
@@ -260,7 +242,7 @@ fn place(
     around: &Surroundings,
     check: &mut Checker,
 ) -> Option<Vec<UnitPose>> {
-    let shape = group.map(|group| &group.shape);
+    let shape = group.map(UnitGroup::shape);
     let posed = file.poses.is_some() || file.placement_file.is_some();
     if file.armour.is_some() && !posed {
         check.reject(
@@ -291,10 +273,10 @@ fn place(
     let placements = match (row, &file.centres_m) {
         (Some(row), _) => row::place(&row, shape, site, check),
         (None, Some(centres)) if !posed => centres::place(centres, file, shape, site, check),
-        _ => poses::place(file, group.map_or("", |group| &group.name), around.name, shape, site, check)?,
+        _ => poses::place(file, group?, around.name, site, check)?,
     };
     validate_above_terrain(&placements, site, check);
-    validate_outside_parts(&placements, shape, site, check);
+    validate_outside_parts(&placements, group?, site, check);
     Some(if in_layer { planar::lay(placements, site, check) } else { placements })
 }
 
@@ -323,9 +305,9 @@ const LARGEST_OVERLAP: f64 = 0.01;
 const OF_ROUNDING: f64 = 0.732;
 
 /// Refuses a unit that is inside a part of the structure or an obstacle.
-fn validate_outside_parts(placements: &[UnitPose], shape: &UnitShape, site: &Site, check: &mut Checker) {
+fn validate_outside_parts(placements: &[UnitPose], group: &UnitGroup, site: &Site, check: &mut Checker) {
     let images = if site.sides == Sides::Periodic { vec![-1.0, 0.0, 1.0] } else { vec![0.0] };
-    let is_in = |pose: &UnitPose, part: &Part| {
+    let is_in = |shape: &UnitShape, pose: &UnitPose, part: &Part| {
         images.iter().any(|image| {
             let from = pose.centre + DVec3::Y * (image * site.width);
             let rounding = shape.unit().parts().iter().map(|part| part.rounding()).fold(0.0, f64::max);
@@ -333,10 +315,10 @@ fn validate_outside_parts(placements: &[UnitPose], shape: &UnitShape, site: &Sit
             shape.unit().solid().vertices().iter().any(|v| part.distance(from + pose.rotation * *v) < deepest)
         })
     };
-    let inside = placements
-        .iter()
-        .enumerate()
-        .find_map(|(index, pose)| Some((index, pose, site.parts.iter().find(|part| is_in(pose, part))?)));
+    let inside = placements.iter().enumerate().find_map(|(index, pose)| {
+        let shape = &group.models[group.model_of(index)].shape;
+        Some((index, pose, site.parts.iter().find(|part| is_in(shape, pose, part))?))
+    });
     if let Some((index, pose, part)) = inside {
         let [x, y, z] = pose.centre.to_array().map(as_text);
         check.reject(

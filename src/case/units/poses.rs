@@ -5,8 +5,7 @@ use std::path::Path;
 
 use glam::{DQuat, DVec3};
 
-use super::shape::UnitShape;
-use super::{MAX_UNITS, UnitPose};
+use super::{MAX_UNITS, UnitGroup, UnitPose};
 use crate::case::file::{PlacementFile, PoseFile, Sides, UnitsFile};
 use crate::case::flume::site::Site;
 use crate::case::reading::check::{Checker, as_text, lower_limit, upper_limit};
@@ -20,9 +19,8 @@ const ROUNDING: f64 = 1e-3;
 /// placement file is relative to the folder of the case file.
 pub fn place(
     file: &UnitsFile,
-    group: &str,
+    group: &UnitGroup,
     case_name: &str,
-    shape: &UnitShape,
     site: &Site,
     check: &mut Checker,
 ) -> Option<Vec<UnitPose>> {
@@ -40,7 +38,7 @@ pub fn place(
     }
     let (poses, path) = match (&file.poses, &file.placement_file) {
         (Some(poses), None) => (poses.clone(), ".poses"),
-        (None, Some(path)) => (read(path, group, case_name, check)?, ".placement_file"),
+        (None, Some(path)) => (read(path, &group.name, case_name, check)?, ".placement_file"),
         _ => {
             let advice = "keep one of the two keys";
             check.reject(".poses", "[...]", "left out with `placement_file`", advice);
@@ -54,16 +52,18 @@ pub fn place(
     }
     let validate_one = |(index, pose)| validate(&format!("{path}[{index}]"), pose, site, check);
     let placements: Vec<UnitPose> = poses.iter().enumerate().map(validate_one).collect();
-    refuse_crowd(&placements, path, shape, check);
+    refuse_crowd(&placements, path, group, check);
     Some(placements)
 }
 
 /// Refuses units of which so many are near another unit that they must overlap. The search for contacts would need hours
 /// and all memory for thousands of units at one position.
-fn refuse_crowd(placements: &[UnitPose], path: &str, shape: &UnitShape, check: &mut Checker) {
-    let reach = shape.unit().solid().vertices().iter().map(|vertex| vertex.length()).fold(0.0, f64::max);
+fn refuse_crowd(placements: &[UnitPose], path: &str, group: &UnitGroup, check: &mut Checker) {
+    let corners = group.models.iter().flat_map(|model| model.shape.unit().solid().vertices());
+    let reach = corners.map(|vertex| vertex.length()).fold(0.0, f64::max);
+    let least = group.models.iter().map(|model| model.shape.volume()).fold(f64::MAX, f64::min);
     // Units with their centres within two reaches of a centre are inside a sphere with a radius of three reaches.
-    let most = (4.0 / 3.0 * PI * (3.0 * reach).powi(3) / shape.volume()) as usize;
+    let most = (4.0 / 3.0 * PI * (3.0 * reach).powi(3) / least) as usize;
     let near = |a: &UnitPose| {
         placements.iter().filter(|b| a.centre.distance_squared(b.centre) <= (2.0 * reach).powi(2)).count()
     };

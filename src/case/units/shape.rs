@@ -4,15 +4,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec3;
 
+use super::rock;
 use super::stl::{self, StlUnit};
 use crate::case::file::{Shape, UnitsFile};
 use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::geometry::armour_unit::{ArmourUnit, ArmourUnitError};
 
-/// Largest allowed ratio of the longest to the shortest edge of a cuboid [-]. The rounding radius of the edges is
 /// Smallest and largest allowed length of a unit [m].
 const SMALLEST: f64 = 0.005;
 const LARGEST: f64 = 20.0;
+/// Largest allowed ratio of the longest to the shortest edge of a cuboid [-]. The rounding radius of the edges is
 /// proportional to the height, and must be small compared with the shortest edge.
 const LARGEST_EDGE_RATIO: f64 = 5.0;
 
@@ -29,6 +30,8 @@ pub enum UnitKind {
     CoreLoc { size: f64 },
     /// Grooved cube (Antifer block) with its height [m].
     GroovedCube { height: f64 },
+    /// A rock of the nominal diameter D_n [m]; the seed gives its shape.
+    Rock { nominal_diameter: f64, seed: u64 },
     /// A unit from STL files.
     Stl(StlUnit),
 }
@@ -45,6 +48,7 @@ impl UnitKind {
             Self::Dolos { height, waist } => ArmourUnit::dolos(*height, *waist, rounding_share),
             Self::CoreLoc { size } => ArmourUnit::core_loc(*size, rounding_share),
             Self::GroovedCube { height } => ArmourUnit::grooved_cube(*height, rounding_share),
+            Self::Rock { nominal_diameter, seed } => ArmourUnit::rock(*nominal_diameter, *seed, rounding_share),
             Self::Stl(unit) => ArmourUnit::from_parts(unit.solid(), unit.parts(), rounding_share),
         }
     }
@@ -57,6 +61,7 @@ impl UnitKind {
             Self::Dolos { .. } => "Dolos",
             Self::CoreLoc { .. } => "Core-Loc",
             Self::GroovedCube { .. } => "grooved cube",
+            Self::Rock { .. } => "rock",
             Self::Stl(_) => "unit from STL",
         }
     }
@@ -71,7 +76,7 @@ impl UnitKind {
             Self::CoreLoc { .. } => Some(16.0),
             // The manual lists these shapes as "modified cube".
             Self::Cuboid { .. } | Self::GroovedCube { .. } => Some(6.5),
-            Self::Stl(_) => None,
+            Self::Rock { .. } | Self::Stl(_) => None,
         }
     }
 }
@@ -164,18 +169,19 @@ impl UnitShape {
     }
 }
 
-/// Validates the dimensions of a unit and builds its shape; `name` is the path of the case file. The names of stored STL
-/// files begin with `stem`.
+/// Validates the dimensions of the units of a group and builds their shapes: several for rocks, otherwise one. `name` is
+/// the path of the case file. The names of stored STL files begin with `stem`.
 pub fn validate(
     file: &UnitsFile,
     rounding_share: f64,
     name: &str,
     stem: &str,
     check: &mut Checker,
-) -> Option<UnitShape> {
+) -> Option<Vec<UnitShape>> {
     let before = check.count();
     refuse_keys_of_other_shapes(file, check);
-    let kind = match file.shape {
+    let one = match file.shape {
+        Shape::Rock => None,
         Shape::Tetrapod => height(file, check).map(|height| UnitKind::Tetrapod { height }),
         Shape::Dolos => {
             let height = height(file, check);
@@ -202,10 +208,15 @@ pub fn validate(
                 None
             }
         },
-    }?;
+    };
+    let kinds = if file.shape == Shape::Rock { rock::kinds(file, check)? } else { vec![one?] };
     if check.count() > before {
         return None;
     }
+    kinds.into_iter().map(|kind| build(kind, file, rounding_share, check)).collect()
+}
+
+fn build(kind: UnitKind, file: &UnitsFile, rounding_share: f64, check: &mut Checker) -> Option<UnitShape> {
     match UnitShape::build(kind, rounding_share) {
         Ok(shape) => Some(shape),
         Err(error @ ArmourUnitError::Waist { waist, allowed: [low, high] }) => {
@@ -235,11 +246,17 @@ fn refuse_keys_of_other_shapes(file: &UnitsFile, check: &mut Checker) {
         }
     };
     let by_size = shape == Shape::Cuboid;
-    let by_height = !by_size && shape != Shape::Stl;
-    let advice = if by_size { "the third edge of `size_m` is the height" } else { "the STL file gives the dimensions" };
+    let by_height = !by_size && !matches!(shape, Shape::Stl | Shape::Rock);
+    let advice = match shape {
+        Shape::Cuboid => "the third edge of `size_m` is the height",
+        Shape::Rock => "`rock.d_n50_m` is the size",
+        _ => "the STL file gives the dimensions",
+    };
     refuse("height_m", file.height_m.filter(|_| !by_height).map(as_text), advice);
     refuse("size_m", file.size_m.filter(|_| !by_size).map(|_| "[...]".to_owned()), "`size_m` belongs to a cuboid");
     refuse("waist_ratio", file.waist_ratio.filter(|_| shape != Shape::Dolos).map(as_text), "only a Dolos has a waist");
+    let rock = file.rock.filter(|_| shape != Shape::Rock).map(|_| "{ ... }".to_owned());
+    refuse("rock", rock, "write \"shape\": \"rock\" for rocks");
     let stl = file.stl.as_ref().filter(|_| shape != Shape::Stl).map(|_| "{ ... }".to_owned());
     refuse("stl", stl, "write \"shape\": \"stl\" to use the files");
 }
@@ -286,14 +303,13 @@ fn check_stl_size(unit: &StlUnit, scale: f64, check: &mut Checker) -> bool {
     fits
 }
 
-fn check_length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bool {
+pub(super) fn check_length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bool {
     check.number(path, value, at_least(SMALLEST).up_to(LARGEST), "m", advice)
 }
 
-/// Validates the mass of a unit [kg]: its density must be between 100 and 20,000 kg/m3. `rho0` is the water density
-/// [kg/m3]; `None` without water.
-pub fn validate_mass(mass: f64, shape: &UnitShape, rho0: Option<f64>, check: &mut Checker) {
-    let volume = shape.volume();
+/// Validates the mass of a unit [kg] of the given volume [m3]: its density must be between 100 and 20,000 kg/m3. `rho0` is
+/// the water density [kg/m3]; `None` without water.
+pub fn validate_mass(mass: f64, volume: f64, rho0: Option<f64>, check: &mut Checker) {
     let range = more_than(100.0 * volume).up_to(20_000.0 * volume);
     let advice = format!("a unit of this size has a volume of {volume:.3e} m3; concrete has 2300 to 2400 kg/m3");
     let sound = check.number(".mass_kg", mass, range, "kg", &advice);

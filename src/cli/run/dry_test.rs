@@ -37,7 +37,7 @@ fn introduce(case: &DryTestCase, dir: &Path, quiet: bool) {
     let (units, threads) = (&case.units, rayon::current_num_threads());
     eprintln!("{}", case.title);
     for group in &units.groups {
-        let (count, kind) = (counted(group.members.len(), "unit"), group.shape.kind.name());
+        let (count, kind) = (counted(group.members.len(), "unit"), group.shape().kind.name());
         eprintln!("  {count} ({kind}) of {} kg", group.mass);
     }
     eprintln!("  {} s at most, on {threads} threads", case.stop.duration);

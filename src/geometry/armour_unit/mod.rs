@@ -9,11 +9,14 @@ pub mod dolos;
 pub mod gmsh;
 pub mod grooved_cube;
 pub mod member;
+pub mod rock;
 pub mod section;
 pub mod tetrapod;
 
 use glam::{DMat3, DQuat, DVec3};
 use thiserror::Error;
+
+use crate::random::SplitMix64;
 
 use super::{
     axis_box::AxisBox,
@@ -116,6 +119,15 @@ impl ArmourUnit {
     pub fn grooved_cube(height_m: f64, rounding_share: f64) -> Result<Self, ArmourUnitError> {
         let blocks = grooved_cube::blocks(check_length(height_m)?)?;
         Self::of_blocks(height_m, &blocks, rounding_share, DQuat::IDENTITY)
+    }
+
+    /// Rock of the nominal diameter D_n = `diameter_m` [m]. The seed gives its shape; it stands on its most stable face.
+    pub fn rock(diameter_m: f64, seed: u64, rounding_share: f64) -> Result<Self, ArmourUnitError> {
+        let block = rock::block(check_length(diameter_m)?.powi(3), &mut SplitMix64::new(seed))?;
+        let unit = Self::of_members(diameter_m, &[block], rounding_share)?;
+        let heights = unit.solid.vertices().iter().map(|v| (unit.standing * *v).z);
+        let [low, high] = heights.fold([f64::MAX, f64::MIN], |[low, high], z| [low.min(z), high.max(z)]);
+        Ok(Self { height: high - low, ..unit })
     }
 
     /// Unit with the given surface and convex parts; the unit stands in the orientation of this surface.

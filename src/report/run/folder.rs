@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::motion::{UnitMotion, motions};
-use crate::output::{OutputError, Summary, Table, UnitSurface};
+use crate::output::{GroupSummary, OutputError, Summary, Table, UnitSurface};
 use crate::simulation::breakage::results::Breakage;
 
 /// The contents of a run folder. A field is empty or `None` if the run did not write its file.
@@ -59,7 +59,8 @@ impl RunFolder {
             Some(table) => table.column("x_m")?.iter().zip(table.column("z_m")?).map(|(x, z)| [*x, *z]).collect(),
             None => Vec::new(),
         };
-        let surfaces = (0..summary.groups.len().max(1)).map(|group| run_dir.join(UnitSurface::file_of(group)));
+        let models: u32 = summary.groups.iter().map(GroupSummary::shapes).sum();
+        let surfaces = (0..models.max(1) as usize).map(|model| run_dir.join(UnitSurface::file_of(model)));
         let surfaces =
             surfaces.take_while(|path| path.exists()).map(|path| UnitSurface::read(&path)).collect::<Result<_, _>>()?;
         Ok(Self {
@@ -78,6 +79,15 @@ impl RunFolder {
     /// Returns the index of the group of a unit, which has the number `unit`.
     pub fn group_of(&self, unit: u32) -> usize {
         self.summary.groups.iter().position(|group| group.contains(unit)).unwrap_or(0)
+    }
+
+    /// Returns the index in [`Self::surfaces`] of the surface of a unit, which has the number `unit`.
+    pub fn surface_of(&self, unit: u32) -> usize {
+        let group = self.group_of(unit);
+        let groups = &self.summary.groups;
+        let before: u32 = groups.iter().take(group).map(GroupSummary::shapes).sum();
+        let member = groups.get(group).map_or(0, |group| unit.saturating_sub(group.units[0]) % group.shapes());
+        (before + member) as usize
     }
 
     /// Returns true if the folder contains a file with this name.

@@ -106,7 +106,7 @@ impl<'a> ImpactScene<'a> {
     }
 
     fn surface_of(&self, unit: u32) -> Option<&UnitSurface> {
-        self.surfaces.get(self.run.group_of(unit))
+        self.surfaces.get(self.run.surface_of(unit))
     }
 
     /// Draws the silhouette of a unit as a pale area with an outline.

@@ -9,7 +9,7 @@
 use glam::DVec3;
 
 use super::nearest_points::Placement;
-use crate::geometry::convex::polyhedron::Polyhedron;
+use crate::geometry::convex::polyhedron::{Edge, Face, Polyhedron};
 use crate::rigid::contact::WHOLE_PART;
 
 /// Squared sine of the angle below which two edges count as parallel [-] (0.6 degrees). Corners then carry the load.
@@ -50,23 +50,31 @@ pub fn near_points(
             found.push(near);
         }
     };
-    for (number, corner) in a_at_b.iter().enumerate().filter(|(_, corner)| b.least_distance(**corner) < reach) {
+    let (beyond_b, beyond_a) = (beyond_faces(b, &a_at_b, reach), beyond_faces(a, &b_at_a, reach));
+    for (number, corner) in a_at_b.iter().enumerate().filter(|(number, _)| beyond_b[*number] == 0) {
         let points = [from_b(*corner), from_b(b.nearest(*corner))];
         keep(NearPoint { features: [number as u16, WHOLE_PART], points, overlap_reduction: 0.0 });
     }
-    for (number, corner) in b_at_a.iter().enumerate().filter(|(_, corner)| a.least_distance(**corner) < reach) {
+    for (number, corner) in b_at_a.iter().enumerate().filter(|(number, _)| beyond_a[*number] == 0) {
         let points = [from_a(a.nearest(*corner)), from_a(*corner)];
         keep(NearPoint { features: [WHOLE_PART, number as u16], points, overlap_reduction: 0.0 });
     }
     let relative = back_a * q_b;
-    let edges_of_b: Vec<EdgeAt> = b
+    // An edge with both ends beyond the same face is out of reach.
+    let can_touch = |edge: &Edge, beyond: &[u64]| edge.ends.iter().fold(u64::MAX, |all, end| all & beyond[*end]) == 0;
+    let edges_of_b: Vec<(usize, EdgeAt)> = b
         .edges()
         .iter()
-        .map(|edge| EdgeAt { ends: edge.ends.map(|c| b_at_a[c]), normals: edge.normals.map(|n| relative * n) })
+        .enumerate()
+        .filter(|(_, edge)| can_touch(edge, &beyond_a))
+        .map(|(number, edge)| {
+            let at = EdgeAt { ends: edge.ends.map(|c| b_at_a[c]), normals: edge.normals.map(|n| relative * n) };
+            (number, at)
+        })
         .collect();
-    for (i, edge) in a.edges().iter().enumerate() {
+    for (i, edge) in a.edges().iter().enumerate().filter(|(_, edge)| can_touch(edge, &beyond_b)) {
         let edge = EdgeAt { ends: edge.ends.map(|c| a.corners()[c]), normals: edge.normals };
-        for (j, other) in edges_of_b.iter().enumerate() {
+        for (j, other) in &edges_of_b {
             if let Some((points, overlap_reduction)) = crossing(&edge, other, rounding, reach) {
                 let features = [(a.corners().len() + i) as u16, (b.corners().len() + j) as u16];
                 keep(NearPoint { features, points: points.map(from_a), overlap_reduction });
@@ -79,6 +87,14 @@ pub fn near_points(
 /// Returns true if all `corners` of the other body lie more than `reach` [m] in front of one face of `body`.
 fn are_apart(body: &Polyhedron, corners: &[DVec3], reach: f64) -> bool {
     body.faces().iter().any(|face| corners.iter().all(|corner| face.plane.distance(*corner) > reach))
+}
+
+/// Returns for each of the `corners` of the other body a bit for each of the first 64 faces of `body`: 1 if the corner lies
+/// more than `reach` [m] in front of the face.
+fn beyond_faces(body: &Polyhedron, corners: &[DVec3], reach: f64) -> Vec<u64> {
+    let bit = |corner: &DVec3, face: &Face| u64::from(face.plane.distance(*corner) >= reach);
+    let bits = |corner| body.faces().iter().take(64).fold(0, |bits, face| bits << 1 | bit(corner, face));
+    corners.iter().map(bits).collect()
 }
 
 /// An edge in the axes of the first body: ends [m] and outward normals of its two faces.

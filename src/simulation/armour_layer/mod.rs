@@ -14,7 +14,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::{
-    case::{LayerJob, Layers, PlacedGroupFile, PlacementFile, PoseFile},
+    case::{LayerJob, Layers, PlacedGroupFile, PlacementFile, PoseFile, group},
     random::SplitMix64,
     rigid::{BodyState, Load, RigidError, RigidWorld},
     simulation::bodies::rigid_setup,
@@ -150,18 +150,18 @@ fn place_layers(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<Ar
     let setup = rigid_setup(&job.units, &job.site, &job.materials, job.contact.law, job.gravity);
     let world = RigidWorld::new(setup)?;
     let first = world.states().len();
-    let mut yard = Yard { job, potential: world.energy().potential, world, first };
+    let mut yard = Yard { job, potential: world.energy().potential, world, first, begin: first };
     let mut members = Vec::new();
     for layers in &job.layers {
-        let begin = yard.world.states().len();
+        yard.begin = yard.world.states().len();
         for row in rows(job, layers) {
             for slot in &row {
                 yard.lower(layers, slot, &mut report)?;
             }
             yard.settle_row(layers)?;
         }
-        yard.replace_lost(layers, begin, &mut report)?;
-        members.push(begin..yard.world.states().len());
+        yard.replace_lost(layers, &mut report)?;
+        members.push(yard.begin..yard.world.states().len());
     }
     yard.settle(REST_SPEED, LAST_TIME)?;
     let Yard { world, potential, .. } = yard;
@@ -202,6 +202,8 @@ struct Yard<'a> {
     potential: f64,
     /// Number of units that were in place at the start.
     first: usize,
+    /// Number of the first unit of the group that is being placed.
+    begin: usize,
 }
 
 impl Yard<'_> {
@@ -217,10 +219,12 @@ impl Yard<'_> {
         let unit = self.world.states().len() + 1 - self.first;
         let from = DVec3::new(x, y, self.highest(x) + 2.0 * self.job.units.tallest());
         let ground = site.level(x, y.rem_euclid(site.width));
-        let state = lowered(&self.world, layers.group, from, rotation, ground, group.shape.height())
+        let model = group.model_of(self.world.states().len() - self.begin);
+        let kind = group::first_model(&self.job.units.groups, layers.group) + model;
+        let state = lowered(&self.world, kind, from, rotation, ground, group.height())
             .ok_or(PlacementError::NoRoom { unit, x, y })?;
-        self.potential += group.mass * self.job.gravity * state.position.z;
-        self.world.add(layers.group, state);
+        self.potential += group.models[model].mass * self.job.gravity * state.position.z;
+        self.world.add(kind, state);
         report(unit, self.world.time());
         Ok(())
     }
@@ -232,7 +236,7 @@ impl Yard<'_> {
 
     /// Waits until the units of a row are slow.
     fn settle_row(&mut self, layers: &Layers) -> Result<(), PlacementError> {
-        let height = self.job.group(layers).shape.height();
+        let height = self.job.group(layers).height();
         let slow = ROW_SPEED * (self.job.gravity * height).sqrt();
         let begun = self.world.time();
         while self.world.time() - begun < ROW_TIME[0]
@@ -254,24 +258,19 @@ impl Yard<'_> {
         Ok(())
     }
 
-    /// Lowers further units where the layers are thinnest, for the units from number `begin` on that left the slope.
-    fn replace_lost(
-        &mut self,
-        layers: &Layers,
-        begin: usize,
-        report: &mut impl FnMut(usize, f64),
-    ) -> Result<(), PlacementError> {
+    /// Lowers further units where the layers are thinnest, for the units of the group that left the slope.
+    fn replace_lost(&mut self, layers: &Layers, report: &mut impl FnMut(usize, f64)) -> Result<(), PlacementError> {
         let wanted = self.job.count(layers);
         let mut random = SplitMix64::new(layers.armour.seed ^ REPLACEMENTS);
         for _ in 0..MOST_ROUNDS {
             self.settle(ROUND_SPEED, ROUND_TIME)?;
             let on_slope = |unit: &&BodyState| is_on_slope(layers, unit);
-            let stayed = self.world.states()[begin..].iter().filter(on_slope).count();
+            let stayed = self.world.states()[self.begin..].iter().filter(on_slope).count();
             if stayed >= wanted {
                 break;
             }
             for _ in stayed..wanted {
-                let slot = thinnest(self.job, layers, &self.world.states()[begin..], &mut random);
+                let slot = thinnest(self.job, layers, &self.world.states()[self.begin..], &mut random);
                 self.lower(layers, &slot, report)?;
                 self.settle_row(layers)?;
             }

@@ -24,7 +24,7 @@ const FROM_WALL: f64 = 0.68;
 
 /// Returns the rows of all layers in the order of placement: layer by layer, and in each layer from the toe upwards.
 pub(super) fn rows(job: &LayerJob, layers: &Layers) -> Vec<Vec<Slot>> {
-    let (armour, unit) = (&layers.armour, job.group(layers).shape.unit());
+    let (armour, unit) = (&layers.armour, job.group(layers).shape().unit());
     let mut random = SplitMix64::new(armour.seed);
     let slope = job.slope(layers);
     let width = job.site.width;
@@ -69,10 +69,10 @@ pub(super) fn rows(job: &LayerJob, layers: &Layers) -> Vec<Vec<Slot>> {
 /// Returns the place on the slope around which the fewest units are, with a random rotation. `units` lists the units of
 /// the layers.
 pub(super) fn thinnest(job: &LayerJob, layers: &Layers, units: &[BodyState], random: &mut SplitMix64) -> Slot {
-    let unit = job.group(layers).shape.unit();
+    let unit = job.group(layers).shape().unit();
     let (slope, width) = (job.slope(layers), job.site.width);
     let margin = if job.site.sides == Sides::Periodic { 0.0 } else { FROM_WALL * unit.height() };
-    let size = job.group(layers).shape.nominal_diameter();
+    let size = job.group(layers).nominal_diameter;
     let length = length_of(&slope);
     // Candidates half a nominal diameter apart, at random places within their cells.
     let cells = |length: f64| ((2.0 * length / size).round() as usize).max(1);

@@ -57,9 +57,9 @@ impl Model {
         let group = &units.groups[0];
         let in_water = site.parts.iter().filter(|part| !matches!(part.shape, PartShape::Bed(_)));
         Self {
-            gyration: group.shape.unit().inertia(1.0),
-            shape: group.shape.clone(),
-            mass: group.mass,
+            gyration: group.shape().unit().inertia(1.0),
+            shape: group.shape().clone(),
+            mass: group.models[0].mass,
             count: units.count(),
             material: material(group.material),
             ground: material(units.ground_material),

@@ -44,7 +44,7 @@ impl UnitKind {
             Self::Cuboid { edges } => cuboid::sections(DVec3::from_array(*edges)),
             // The full square is used as the cross-section, although the grooves remove a twentieth of its area.
             Self::GroovedCube { height } => cuboid::sections(DVec3::splat(*height)),
-            Self::Stl(_) => Vec::new(),
+            Self::Rock { .. } | Self::Stl(_) => Vec::new(),
         }
     }
 }

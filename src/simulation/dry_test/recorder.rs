@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{DryTest, Measured};
 use crate::{
-    case::{BreakageSettings, CaseIdentity, SiteTerrain},
+    case::{BreakageSettings, CaseIdentity, SiteTerrain, group},
     output::{
         Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, Schedule, UnitSurface, checksum::checksum,
         columns, state_file::DAMAGED, write_atomically,
@@ -92,7 +92,7 @@ impl DryTestRecorder {
             write_atomically(&dir.join(SiteTerrain::FILE), &terrain.content)?;
         }
         CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?.append_rows(case.site.profile.points())?;
-        UnitSurface::write_groups(case.units.groups.iter().map(|group| group.shape.unit().solid()), dir)?;
+        UnitSurface::write_models(group::models(&case.units.groups).map(|(_, model)| model.shape.unit().solid()), dir)?;
         let surfaces = |_| -> Result<PolyDataSeries, OutputError> {
             let series = PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS)?;
             Ok(series.skipping_rest(rest_of(&case.units.groups)))

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::{Simulation, measures::extremes::Extremes};
 use crate::{
-    case::UnitGroup,
+    case::{UnitGroup, UnitModel},
     rigid::{BodyState, RigidError},
     sph::{particles::water::Water, solver::backend::DeviceError},
 };
@@ -166,11 +166,11 @@ pub(super) fn find_escape(simulation: &Simulation) -> Option<Failure> {
 pub(super) fn find_unit_outside(simulation: &Simulation) -> Option<Failure> {
     let units = simulation.units.as_ref()?;
     let [from, to] = simulation.own_x();
-    let is_outside = |(group, state): (&UnitGroup, &BodyState)| {
-        let tips = 0.5 * group.shape.height() + simulation.case.numerics.h;
+    let is_outside = |((_, model), state): ((&UnitGroup, &UnitModel), &BodyState)| {
+        let tips = 0.5 * model.shape.height() + simulation.case.numerics.h;
         state.position.x - tips < from || state.position.x + tips > to
     };
-    let unit = units.group_of_each().zip(units.states()).position(is_outside)?;
+    let unit = units.each().zip(units.states()).position(is_outside)?;
     let (time, step, place) = (simulation.time, simulation.steps, units.states()[unit].position);
     Some(Failure::LeftFineWater { time, step, unit: unit + 1, place })
 }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::{Simulation, Units, wave::ends::MovingEnd};
 use crate::{
-    case::{Case, Part, Sides, UnitGroup},
+    case::{Case, Part, Sides, UnitGroup, UnitModel},
     geometry::{axis_box::AxisBox, convex::convex_part::ConvexPart, outline::Outline},
     rigid::{BodyState, Load},
     sph::{
@@ -57,7 +57,7 @@ impl Simulation {
             }
             let Some(units) = units else { return };
             let impulses = keep_out_of_units(water, units, solver.grid(), bins, nearest);
-            let slices: Vec<f64> = units.group_of_each().map(|group| group.slices).collect();
+            let slices: Vec<f64> = units.each().map(|(group, _)| group.slices).collect();
             for ((load, impulse), slices) in units.fluid_loads.iter_mut().zip(impulses).zip(slices) {
                 *load += impulse.map(|sum| slices * sum / dt);
             }
@@ -87,14 +87,14 @@ fn surfaces(
 ) -> Surfaces {
     let nearest = NEAREST * case.domain.dp;
     let bounding_spheres = units.into_iter().flat_map(|units| {
-        let of_unit = move |(group, state): (&UnitGroup, &BodyState)| {
+        let of_unit = move |((_, model), state): ((&UnitGroup, &UnitModel), &BodyState)| {
             let bounding_sphere = |part: &ConvexPart| {
                 let (centre, radius) = part.bounding_sphere();
                 (state.position + state.rotation * centre, radius + nearest)
             };
-            group.shape.unit().parts().iter().map(bounding_sphere).collect::<Vec<_>>()
+            model.shape.unit().parts().iter().map(bounding_sphere).collect::<Vec<_>>()
         };
-        units.group_of_each().zip(units.states()).flat_map(of_unit).collect::<Vec<_>>()
+        units.each().zip(units.states()).flat_map(of_unit).collect::<Vec<_>>()
     });
     Surfaces {
         min_distance: nearest,
@@ -260,7 +260,7 @@ fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: Option
             None => (0..water.len()).filter_map(within).collect(),
         }
     };
-    let parts = units.group_of_each().map(|group| group.shape.unit().parts());
+    let parts = units.each().map(|(_, model)| model.shape.unit().parts());
     let each: Vec<(&[ConvexPart], &BodyState)> = parts.zip(units.states()).collect();
     let near: Vec<Vec<NearUnit>> = each.par_iter().map(near).collect();
     let mut keep_out = |(state, near): (&BodyState, &Vec<NearUnit>)| {

@@ -36,7 +36,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::{
-    case::{Case, Gauge, Motion, UnitGroup},
+    case::{Case, Gauge, Motion, UnitGroup, UnitModel, group},
     geometry::{outline::Outline, solid::Solid},
     rigid::{BodyState, Load, RigidWorld},
     sph::{
@@ -201,14 +201,14 @@ impl Units {
         self.world.states()
     }
 
-    /// Returns the group of each unit.
-    pub fn group_of_each(&self) -> impl Iterator<Item = &UnitGroup> {
-        self.groups.iter().flat_map(|group| group.members.clone().map(move |_| group))
+    /// Returns group and model of each unit.
+    pub fn each(&self) -> impl Iterator<Item = (&UnitGroup, &UnitModel)> {
+        group::each(&self.groups)
     }
 
     /// Returns the surface and the state of each unit.
     pub fn solids(&self) -> Vec<(&Solid, &BodyState)> {
-        self.group_of_each().map(|group| group.shape.unit().solid()).zip(self.states()).collect()
+        self.each().map(|(_, model)| model.shape.unit().solid()).zip(self.states()).collect()
     }
 
     /// Returns the horizontal distance of each unit from its start position [m].

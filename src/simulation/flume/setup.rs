@@ -18,7 +18,7 @@ use super::{
     },
 };
 use crate::{
-    case::{self, Case, Part, PartShape, Region},
+    case::{self, Case, Part, PartShape, Region, group},
     geometry::{axis_box::AxisBox, outline::Outline, profile::Profile},
     rigid::RigidError,
     sph::{
@@ -152,14 +152,14 @@ impl Simulation {
         let reach = reach_of(&case, &ends);
 
         let (across, outline) = (across(&case), outline(&case, reach));
-        let groups = units.iter().flat_map(|units| &units.groups);
+        let groups = units.as_ref().map_or(&[][..], |units| &units.groups);
         let unit_particles: Vec<_> =
-            groups.map(|group| (unit_in_place(group.shape.unit(), &case), group.members.len())).collect();
+            group::models(groups).map(|(_, model)| unit_in_place(model.shape.unit(), &case)).collect();
         let count = units.as_ref().map_or(0, |units| units.states().len());
         let boundary = Boundary::new(
             &fixed_particles(&case, &outline, &across, reach),
             &ends.iter().map(|end| end_particles(&case, &across, end)).collect::<Vec<_>>(),
-            &unit_particles,
+            &group::model_of_each(groups).map(|model| &unit_particles[model][..]).collect::<Vec<_>>(),
             case.fluid.rho0,
         );
         let mut water = fill(&case, &across, flume.as_deref(), start);

@@ -155,7 +155,7 @@ impl Simulation {
         let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
         let loads = self.solver.unit_loads(&self.boundary, &centres)?;
         // In two dimensions, the particles represent only one slice of each unit: multiply by the number of slices.
-        let slices: Vec<f64> = units.group_of_each().map(|group| group.slices).collect();
+        let slices: Vec<f64> = units.each().map(|(group, _)| group.slices).collect();
         units.fluid_loads = loads.into_iter().zip(slices).map(|(load, slices)| load.map(|sum| slices * sum)).collect();
         Ok(())
     }

@@ -99,7 +99,7 @@ mod tests {
             let text = given.replace(r#""scheme": "mitsui_2023""#, &wanted);
             let case = Case::from_str(&text, "cases/fudo/test.json").unwrap_or_else(|errors| panic!("{errors}"));
             let units = case.units.as_ref().expect("the slice has two units");
-            let particles = unit_in_place(units.groups[0].shape.unit(), &case);
+            let particles = unit_in_place(units.groups[0].shape().unit(), &case);
             let wanted = if slides { Mirroring::Full } else { Mirroring::Normal };
             assert!(!particles.is_empty() && particles.iter().all(|particle| particle.mirroring == wanted));
         }

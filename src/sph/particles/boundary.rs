@@ -62,12 +62,12 @@ pub struct BoundaryParticle {
 
 impl Boundary {
     /// Creates the `fixed` particles of bed and walls, the particles of each piston with their row numbers, and the
-    /// `units`: for each group of equal units, the particles of one unit and the number of units. All particles start
-    /// with the density `rho0` [kg/m3]. The units lie at the origin until [`Self::move_unit`] moves them.
+    /// particles of each of the `units`. All particles start with the density `rho0` [kg/m3]. The units lie at the origin
+    /// until [`Self::move_unit`] moves them.
     pub fn new(
         fixed: &[BoundaryParticle],
         pistons: &[Vec<(u32, BoundaryParticle)>],
-        units: &[(Vec<BoundaryParticle>, usize)],
+        units: &[&[BoundaryParticle]],
         rho0: f64,
     ) -> Self {
         let mut boundary = Self::default();
@@ -79,7 +79,7 @@ impl Boundary {
             boundary.pistons.push(Piston { particles: first..boundary.len(), row });
         }
         boundary.first_unit = boundary.len();
-        for unit in units.iter().flat_map(|(unit, count)| std::iter::repeat_n(unit, *count)) {
+        for unit in units {
             let (first, number) = (boundary.len(), boundary.units.len());
             unit.iter().for_each(|p| boundary.push(p, rho0));
             boundary.units.push(first..boundary.len());
@@ -136,7 +136,7 @@ impl Boundary {
     }
 
     /// Returns position and surface vector of each particle of the first unit, in the unit's axes [m]. These values are
-    /// the same for all units of its group.
+    /// the same for all units of its shape.
     pub fn positions_in_first_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let unit = self.units.first().cloned().unwrap_or_default();
         unit.map(|particle| (self.anchor[particle], self.anchor_to_surface[particle]))
@@ -188,7 +188,7 @@ mod tests {
             volume: 1.0,
             mirroring: Mirroring::Normal,
         };
-        let mut boundary = Boundary::new(&[], &[], &[(vec![particle], 2)], 1000.0);
+        let mut boundary = Boundary::new(&[], &[], &[&[particle], &[particle]], 1000.0);
         let quarter = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
         boundary.move_unit(
             1,

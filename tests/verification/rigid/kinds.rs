@@ -88,14 +88,21 @@ fn unequal_balls_bounce_with_the_restitution_and_keep_their_momentum() {
 }
 
 #[test]
-fn a_tetrapod_that_hits_a_cube_keeps_momentum_and_angular_momentum() {
+fn a_tetrapod_that_hits_a_cube_or_a_rock_keeps_momentum_and_angular_momentum() {
+    keeps_momentum(&cube(0.04));
+    keeps_momentum(&ArmourUnit::rock(0.04, 3, 0.05).unwrap());
+}
+
+/// A Tetrapod hits a unit of 0.1 kg at rest.
+fn keeps_momentum(other: &ArmourUnit) {
     let state =
         |position, velocity| BodyState { velocity, ..BodyState::at_rest(position, DQuat::from_rotation_x(0.4)) };
     let bodies = vec![
         Body { kind: 0, state: state(DVec3::new(-0.09, 0.012, 0.0), DVec3::X) },
         Body { kind: 1, state: state(DVec3::ZERO, DVec3::ZERO) },
     ];
-    let setup = RigidSetup { ground: None, gravity: DVec3::ZERO, ..two_kinds(bodies, 0.5, 0.5) };
+    let mut setup = RigidSetup { ground: None, gravity: DVec3::ZERO, ..two_kinds(bodies, 0.5, 0.5) };
+    setup.kinds[1].shape = BodyShape::from_unit(other, 0.1);
     let (masses, inertias) = ([0, 1].map(|k| setup.kinds[k].shape.mass), [0, 1].map(|k| setup.kinds[k].shape.inertia));
     let mut world = RigidWorld::new(setup).unwrap();
     let momenta = |world: &RigidWorld| {
@@ -110,7 +117,7 @@ fn a_tetrapod_that_hits_a_cube_keeps_momentum_and_angular_momentum() {
     let (before, energy) = (momenta(&world), total_energy(&world));
     run(&mut world, 0.1, 1e-4);
     let after = momenta(&world);
-    println!("Tetrapod hits cube: cube moves with {:.4} m/s", world.states()[1].velocity);
+    println!("the other unit moves with {:.4} m/s", world.states()[1].velocity);
     assert!(world.states()[1].velocity.length() > 0.3 && !world.take_events().is_empty());
     // Limit 1e-12: rounding of a thousand substeps. The force acts on both bodies at the same point, so that the moment
     // is conserved as well.

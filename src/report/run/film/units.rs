@@ -118,7 +118,7 @@ fn property(
 
 fn body(run: &RunFolder, number: u32) -> Body {
     let group = run.group_of(number);
-    let mesh = group.min(run.surfaces.len().saturating_sub(1));
+    let mesh = run.surface_of(number).min(run.surfaces.len().saturating_sub(1));
     let Some(unit) = run.summary.units.iter().find(|unit| unit.unit == number) else {
         return Body { number, mesh, facts: Vec::new() };
     };

@@ -49,10 +49,10 @@ impl Simulation {
             energy.internal += internal;
         }
         if let Some(units) = &self.units {
-            for (group, state) in units.group_of_each().zip(units.states()) {
+            for ((group, model), state) in units.each().zip(units.states()) {
                 // In two dimensions, the water is as thick as one slice of a unit. Therefore use the mass of one slice.
-                let mass = group.mass / group.slices;
-                let inertia = group.shape.unit().inertia(mass);
+                let mass = model.mass / group.slices;
+                let inertia = model.shape.unit().inertia(mass);
                 let spin = state.rotation.inverse() * state.angular_velocity;
                 energy.units_kinetic += 0.5 * mass * state.velocity.length_squared() + 0.5 * spin.dot(inertia * spin);
                 energy.units_potential += mass * parameters.gravity * state.position.z;

@@ -21,7 +21,7 @@ use super::{
 };
 use crate::simulation::flume::{Simulation, Units, measures::water_at_impacts::pressure_places, step::PreparedStep};
 use crate::{
-    case::{BreakageSettings, ROWS_FILE, Reference, Wave},
+    case::{BreakageSettings, ROWS_FILE, Reference, Wave, group},
     output::{
         CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges,
     },
@@ -70,7 +70,7 @@ impl Recorder {
         let mut profile = CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?;
         profile.append_rows(case.flume.profile.points())?;
         if let Some(units) = &case.units {
-            UnitSurface::write_groups(units.groups.iter().map(|group| group.shape.unit().solid()), dir)?;
+            UnitSurface::write_models(group::models(&units.groups).map(|(_, model)| model.shape.unit().solid()), dir)?;
             for (name, content) in units.files() {
                 write_atomically(&dir.join(name), content)?;
             }

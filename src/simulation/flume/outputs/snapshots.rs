@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::surface::{SurfaceSeries, WaterParts, particles_in};
 use crate::simulation::flume::Simulation;
 use crate::{
-    case::{FluidField, Output, UnitGroup},
+    case::{FluidField, Output, UnitGroup, group},
     output::{Cells, FieldKind, FieldValues, OutputError, PolyDataSeries},
     rigid::BodyState,
     sph::particles::water::Water,
@@ -28,7 +28,7 @@ const AT_REST: f64 = 1e-3;
 
 /// Returns the distance below which the units of a film are at rest [m].
 pub fn rest_of(groups: &[UnitGroup]) -> f64 {
-    AT_REST * groups.iter().map(|group| group.shape.height()).fold(f64::INFINITY, f64::min)
+    AT_REST * group::models(groups).map(|(_, model)| model.shape.height()).fold(f64::INFINITY, f64::min)
 }
 
 /// Open snapshot files; `None` for a file that the case does not request.
@@ -179,14 +179,12 @@ impl Frame {
     /// Copies the surfaces of the units, with the number of the unit of each point.
     pub fn of_surfaces(groups: &[UnitGroup], states: &[BodyState], time: f64) -> Self {
         let (mut points, mut triangles, mut number) = (Vec::new(), Vec::new(), Vec::new());
-        for group in groups {
-            let (vertices, faces) = group.shape.unit().film_surface();
-            for (state, unit) in states[group.members.clone()].iter().zip(group.members.clone()) {
-                let first = points.len() as u32;
-                triangles.extend(faces.iter().map(|corners| corners.map(|corner| first + corner)));
-                points.extend(vertices.iter().map(|v| (state.position + state.rotation * *v).as_vec3().to_array()));
-                number.extend(vertices.iter().map(|_| unit as i32 + 1));
-            }
+        let surfaces: Vec<_> = group::models(groups).map(|(_, model)| model.shape.unit().film_surface()).collect();
+        for (unit, (model, state)) in group::model_of_each(groups).zip(states).enumerate() {
+            let (first, (vertices, faces)) = (points.len() as u32, &surfaces[model]);
+            triangles.extend(faces.iter().map(|corners| corners.map(|corner| first + corner)));
+            points.extend(vertices.iter().map(|v| (state.position + state.rotation * *v).as_vec3().to_array()));
+            number.extend(vertices.iter().map(|_| unit as i32 + 1));
         }
         Self { time, points, triangles, fields: vec![Column::Integer(number)] }
     }

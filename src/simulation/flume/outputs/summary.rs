@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::simulation::flume::Simulation;
 use crate::{
-    case::{Case, Part, Quantity, Sides, UnitGroup, Wave, Wavemaker},
+    case::{Case, Part, Quantity, Sides, UnitGroup, UnitModel, Wave, Wavemaker},
     output::{
         ContactSummary, EnergySummary, Execution, GaugeSummary, GroupSummary, OutputError, ParticleCounts,
         PressureSummary, SectionSummary, Stopped, Summary, Table, TimeStepSummary, UnitSummary, WaveSummary, columns,
@@ -120,7 +120,8 @@ fn group_of(group: &UnitGroup) -> GroupSummary {
         name: group.name.clone(),
         units: [group.members.start as u32 + 1, group.members.end as u32],
         fixed: group.is_fixed,
-        nominal_diameter_m: group.shape.nominal_diameter(),
+        nominal_diameter_m: group.nominal_diameter,
+        models: group.models.len() as u32,
         damage_measure: group.limits.measure,
         damage_distance_m: group.limits.distance,
         rotation_limit_deg: group.limits.rotation_deg,
@@ -131,7 +132,7 @@ fn group_of(group: &UnitGroup) -> GroupSummary {
 fn units_of(simulation: &Simulation) -> Vec<UnitSummary> {
     let Some(units) = &simulation.units else { return Vec::new() };
     let statistics = &simulation.statistics;
-    let summary_of = |(k, group): (usize, &UnitGroup)| {
+    let summary_of = |(k, (group, _)): (usize, (&UnitGroup, &UnitModel))| {
         let (now, start) = (&units.states()[k], &units.start[k]);
         let turned = (now.rotation * start.rotation.inverse()).normalize();
         let angle = 2.0 * turned.xyz().length().atan2(turned.w.abs());
@@ -144,7 +145,7 @@ fn units_of(simulation: &Simulation) -> Vec<UnitSummary> {
             ..UnitSummary::moved(k as u32 + 1, from, to, angle.to_degrees(), group.limits)
         }
     };
-    units.group_of_each().enumerate().map(summary_of).collect()
+    units.each().enumerate().map(summary_of).collect()
 }
 
 /// Returns the highest elevation at each elevation gauge and the highest pressures at each pressure gauge, read from

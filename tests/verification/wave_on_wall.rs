@@ -1,0 +1,140 @@
+//! Force of regular waves on a vertical wall: linear theory of standing waves, and the formula of Goda (1974).
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use breakwater::case::Case;
+use breakwater::output::{Table, driver::Control};
+use breakwater::simulation::flume::run::{RunOptions, run};
+use breakwater::waves::theory::regular::RegularWave;
+use serde_json::json;
+
+use super::tanks::GRAVITY;
+
+/// A tank with a piston at x = 0 and a wall at its other end; two dimensions.
+struct Tank {
+    wave: RegularWave,
+    dp: f64,
+    /// x of the wall [m].
+    wall: f64,
+    /// Start and duration of the readings, in periods. They end before the wave returns from the piston to the wall.
+    from: f64,
+    periods: f64,
+}
+
+/// Results of a run, per metre of the wall.
+#[derive(Debug)]
+struct Results {
+    /// Amplitude of the first harmonic of the elevation at the wall [m].
+    elevation: f64,
+    /// Amplitude of the first harmonic of the horizontal force [N/m], and its phase lead before the elevation [rad].
+    force: f64,
+    phase: f64,
+    /// Largest horizontal force above that of still water [N/m].
+    peak: f64,
+}
+
+fn results(tank: &Tank) -> Results {
+    let RegularWave { height_m, period_s, depth_m, .. } = tank.wave;
+    let end = tank.wall + 0.2;
+    let case = json!({
+        "title": "Regular waves on a wall",
+        "flume": { "bed_m": [[0.0, 0.0], [end, 0.0]], "still_water_level_m": depth_m },
+        "structure": [{ "name": "wall", "polygon_m": [[tank.wall, -0.1], [tank.wall, 2.0 * depth_m],
+            [end, 2.0 * depth_m], [end, -0.1]] }],
+        "domain": { "x_m": [0.0, end], "sides": "two_dimensional", "top_z_m": 2.0 * depth_m, "dp_m": tank.dp },
+        "numerics": { "viscosity_alpha": 0.01 },
+        "fluid": { "sound_speed_factor": 10.0 },
+        "wave": { "kind": "regular", "height_m": height_m, "period_s": period_s, "ramp_periods": 1.0 },
+        "wavemaker": { "kind": "piston" },
+        "gauges": [
+            { "kind": "elevation", "name": "surface", "x_m": tank.wall - 0.5 * tank.dp },
+            { "kind": "force", "name": "wall", "on": "wall" }
+        ],
+        "output": { "series_interval_s": 0.01, "fluid_interval_s": 0, "surface_interval_s": 0,
+            "checkpoint_interval_s": 0 },
+        "stop": { "duration_s": (tank.from + tank.periods) * period_s }
+    });
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case::from_str(&case.to_string(), "wall.json").unwrap_or_else(|errors| panic!("{errors}"));
+    // The force is that of a layer of this width.
+    let width = case.domain.width;
+    let control = Control { quiet: true, silent: true, ..Default::default() };
+    run(Arc::new(case), folder.path(), &RunOptions { control, ..Default::default() }).unwrap();
+    let table = Table::read(&folder.path().join("gauges.csv")).unwrap();
+    let time = table.column("time_s").unwrap();
+    let first = time.iter().position(|t| *t >= tank.from * period_s).unwrap();
+    // The sum of a harmonic over whole periods.
+    let harmonic = |values: &[f64]| {
+        let mut sums = [0.0; 2];
+        for (t, value) in time[first..].iter().zip(&values[first..]) {
+            let (sin, cos) = (TAU * t / period_s).sin_cos();
+            sums[0] += value * cos;
+            sums[1] += value * sin;
+        }
+        let scale = 2.0 / (time.len() - first) as f64;
+        (scale * sums[0].hypot(sums[1]), sums[1].atan2(sums[0]))
+    };
+    let force: Vec<f64> = table.column("wall_fx_n").unwrap().iter().map(|force| force / width).collect();
+    let (elevation, lag_of_elevation) = harmonic(table.column("surface_eta_m").unwrap());
+    let (amplitude, lag) = harmonic(&force);
+    // The mean force before the wave arrives.
+    let still = force[..first / 4].iter().sum::<f64>() / (first / 4) as f64;
+    let peak = force[first..].iter().fold(f64::MIN, |a, b| a.max(*b)) - still;
+    let phase = (lag_of_elevation - lag + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+    Results { elevation, force: amplitude, phase, peak }
+}
+
+/// Returns the force of a standing wave of the amplitude `elevation` [m] at a wall, by linear theory [N/m]. The pressure
+/// rho g a cosh k(d + z) / cosh kd is integrated from the bed to the still water level.
+fn linear_force(wave: &RegularWave, elevation: f64) -> f64 {
+    let k = TAU / wave.wavelength_m();
+    1000.0 * GRAVITY * elevation * (k * wave.depth_m).tanh() / k
+}
+
+/// Returns the force at the wave crest on a wall that is not overtopped and stands on the bed [N/m] (Goda 1974, normal
+/// incidence): pressures p1 at the still water level and p3 at the bed, and zero at 1.5 H above the still water level.
+fn goda_force(wave: &RegularWave) -> f64 {
+    let kd = TAU / wave.wavelength_m() * wave.depth_m;
+    let alpha_1 = 0.6 + 0.5 * (2.0 * kd / (2.0 * kd).sinh()).powi(2);
+    let p1 = alpha_1 * 1000.0 * GRAVITY * wave.height_m;
+    let p3 = p1 / kd.cosh();
+    0.5 * (p1 + p3) * wave.depth_m + 0.5 * p1 * 1.5 * wave.height_m
+}
+
+fn check(tank: &Tank, limit: f64) {
+    let found = results(tank);
+    let linear = linear_force(&tank.wave, found.elevation);
+    let goda = goda_force(&tank.wave);
+    println!(
+        "dp {} m: elevation at the wall {:.4} m ({:.3} of the incident height), first harmonic of the force {:.1} N/m \
+         ({:+.1} % of linear theory), phase {:+.3} rad, peak {:.1} N/m ({:.2} of Goda's formula)",
+        tank.dp,
+        found.elevation,
+        found.elevation / tank.wave.height_m,
+        found.force,
+        100.0 * (found.force / linear - 1.0),
+        found.phase,
+        found.peak,
+        found.peak / goda
+    );
+    assert!((found.force / linear - 1.0).abs() < limit, "{found:?}");
+    // Elevation and force are in phase. Limit: a fiftieth of the period.
+    assert!(found.phase.abs() < 0.02 * TAU, "{found:?}");
+    // Goda's formula for design is an upper envelope of measured forces; waves that do not break give less.
+    assert!((0.6..1.1).contains(&(found.peak / goda)), "{found:?}");
+}
+
+#[test]
+fn force_of_a_coarse_standing_wave_is_that_of_linear_theory() {
+    let wave = RegularWave { height_m: 0.04, period_s: 1.0, depth_m: 0.3, gravity: GRAVITY };
+    // Limit 6 %: half a particle spacing in the depth of twelve.
+    check(&Tank { wave, dp: 0.025, wall: 2.0, from: 3.5, periods: 2.0 }, 0.06);
+}
+
+#[test]
+#[ignore = "20 minutes; cargo test --release --test verification fine_standing -- --ignored --nocapture"]
+fn force_of_a_fine_standing_wave_is_that_of_linear_theory() {
+    let wave = RegularWave { height_m: 0.04, period_s: 1.6, depth_m: 0.4, gravity: GRAVITY };
+    check(&Tank { wave, dp: 0.01, wall: 5.0, from: 4.5, periods: 2.0 }, 0.03);
+}
