@@ -189,11 +189,6 @@ impl Polyhedron {
         self.corners.iter().fold(self.corners[0], further)
     }
 
-    /// Lower bound of the signed distance of a point [m], negative inside; exact if a face is nearest.
-    pub fn least_distance(&self, point: DVec3) -> f64 {
-        self.faces.iter().map(|face| face.plane.distance(point)).fold(f64::MIN, f64::max)
-    }
-
     /// Nearest point of the polyhedron to `point` [m]; `point` itself if it lies inside.
     pub fn nearest(&self, point: DVec3) -> DVec3 {
         let mut best = (f64::MAX, point);
@@ -357,7 +352,6 @@ mod tests {
             let p = body.nearest(q);
             let n = (q - p).normalize();
             assert!(body.support(n).dot(n) - p.dot(n) < 1e-12);
-            assert!(body.least_distance(q) <= p.distance(q) + 1e-12);
         }
         assert_eq!(body.nearest(DVec3::splat(0.5)), DVec3::splat(0.5));
     }
