@@ -193,7 +193,7 @@ class Run(Folder):
 
     @property
     def groups(self) -> pd.DataFrame:
-        """Damage ratio, displaced and rotated units, N_od and settlement of each group of units, indexed by its name."""
+        """Damage ratio, displaced, rocking and rotated units, N_od, N_or and settlement of each group, by its name."""
         return pd.DataFrame(self.summary.get("groups", [])).set_index("name")
 
     @property

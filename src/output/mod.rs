@@ -23,6 +23,7 @@ pub mod driver;
 mod error;
 mod execution;
 mod flume_tables;
+mod gauge_summary;
 mod impacts;
 pub mod progress;
 mod schedule;
@@ -40,13 +41,14 @@ pub use atomic::write_atomically;
 pub use error::OutputError;
 pub use execution::Execution;
 pub use flume_tables::{write_flume_gauges, write_flume_piston};
+pub use gauge_summary::{Extremes, ForceSummary, GaugeSummary, PressureSummary};
 pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePoint};
 pub use schedule::Schedule;
 pub use series::CsvSeries;
 pub use size::OutputSize;
 pub use summary::{
-    BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, PressureSummary, SectionSummary,
-    Stopped, Summary, TimeStepSummary, WaveSummary,
+    BreakageSummary, ContactSummary, EnergySummary, ParticleCounts, SectionSummary, Stopped, Summary, TimeStepSummary,
+    WaveSummary,
 };
 pub use table::Table;
 pub use unit_summary::{GroupSummary, UnitSummary};

@@ -4,6 +4,7 @@ use std::{fmt, path::Path};
 
 use serde::{Deserialize, Serialize};
 
+use super::gauge_summary::{ForceSummary, GaugeSummary, PressureSummary};
 use super::unit_summary::{GroupSummary, UnitSummary, averages};
 use super::{Execution, OutputError, write_atomically};
 
@@ -40,6 +41,9 @@ pub struct Summary {
     /// Highest pressure at each pressure gauge in the particle domain.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pressure_gauges: Vec<PressureSummary>,
+    /// Extremes and impulse at each force gauge.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub force_gauges: Vec<ForceSummary>,
     /// Numbers and largest values of the contact events in the whole run.
     pub contacts: ContactSummary,
     /// Total energy at the start and the end; `None` if it was not recorded.
@@ -118,35 +122,6 @@ pub struct WaveSummary {
     /// Period of regular waves, or peak period of irregular waves [s].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub period_s: Option<f64>,
-}
-
-/// Highest surface elevation at an elevation gauge.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct GaugeSummary {
-    /// Name of the gauge.
-    pub name: String,
-    /// Position x of the gauge along the flume [m].
-    pub x_m: f64,
-    /// Highest elevation above still water level in the particle domain [m]; `None` if the gauge is outside this
-    /// domain.
-    pub crest_sph_m: Option<f64>,
-    /// Highest elevation above still water level in the flume model [m]; `None` without flume model.
-    pub crest_flume_m: Option<f64>,
-}
-
-/// Highest pressures at a pressure gauge.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct PressureSummary {
-    /// Name of the gauge.
-    pub name: String,
-    /// Initial position [x, y, z] [m].
-    pub at_m: [f64; 3],
-    /// Highest mean over `output.series_interval_s` [Pa]; `None` if the gauge was always dry, or if a graphics card
-    /// computed the water.
-    pub highest_mean_pa: Option<f64>,
-    /// Highest of the pressures at the times of the rows of `gauges.csv` [Pa]; `None` if the gauge was dry at these
-    /// times.
-    pub highest_pa: Option<f64>,
 }
 
 /// Numbers and largest values of the contact events of all units.

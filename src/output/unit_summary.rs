@@ -28,6 +28,9 @@ pub struct GroupSummary {
     /// A unit counts as rotated if its rotation is larger [deg].
     #[serde(default)]
     pub rotation_limit_deg: f64,
+    /// A rotation back and forth counts as rocking if it is larger [deg].
+    #[serde(default)]
+    pub rocking_limit_deg: f64,
     /// Share of damaged units [-].
     pub damage_ratio: f64,
     /// Mean displacement of the units [m].
@@ -41,6 +44,15 @@ pub struct GroupSummary {
     /// Number of rotated units.
     #[serde(default)]
     pub rotated: u32,
+    /// Number of rocking units: they rocked at least once, and are not displaced.
+    #[serde(default)]
+    pub rocking: u32,
+    /// N_or [-]: number of rocking units in a strip of the width D_n.
+    #[serde(default)]
+    pub n_or: f64,
+    /// N_omov = N_od + N_or [-]: number of moving units in a strip of the width D_n.
+    #[serde(default)]
+    pub n_omov: f64,
     /// Mean settlement of the units [m]: the fall of their centres.
     #[serde(default)]
     pub mean_settlement_m: f64,
@@ -63,9 +75,13 @@ impl GroupSummary {
         let [ratio, mean] = averages(units, |unit| self.contains(unit)).unwrap_or_default();
         (self.damage_ratio, self.mean_displacement_m) = (ratio, mean);
         let number = |is_counted: &dyn Fn(&UnitSummary) -> bool| members.iter().filter(|unit| is_counted(unit)).count();
-        self.displaced = number(&|unit| unit.spatial_displacement_m > self.nominal_diameter_m) as u32;
+        let is_displaced = |unit: &UnitSummary| unit.spatial_displacement_m > self.nominal_diameter_m;
+        self.displaced = number(&is_displaced) as u32;
         self.rotated = number(&|unit| unit.rotation_deg > self.rotation_limit_deg) as u32;
-        self.n_od = f64::from(self.displaced) * self.nominal_diameter_m / width_m.max(f64::MIN_POSITIVE);
+        self.rocking = number(&|unit| unit.rocking_movements > 0 && !is_displaced(unit)) as u32;
+        let in_strip = |count: u32| f64::from(count) * self.nominal_diameter_m / width_m.max(f64::MIN_POSITIVE);
+        (self.n_od, self.n_or) = (in_strip(self.displaced), in_strip(self.rocking));
+        self.n_omov = self.n_od + self.n_or;
         let settled: f64 = members.iter().map(|unit| unit.start_m[2] - unit.end_m[2]).sum();
         self.mean_settlement_m = settled / members.len().max(1) as f64;
     }
@@ -102,10 +118,17 @@ pub struct UnitSummary {
     pub bed_contacts: u64,
     /// Number of contact events with other units. An event of two units counts for only one of them.
     pub unit_contacts: u64,
+    /// Number of rocking movements: rotations back and forth, each way by more than the limit of the group.
+    #[serde(default)]
+    pub rocking_movements: u64,
+    /// Largest rocking angle [deg]: the smaller angle of the two ways of a rocking movement.
+    #[serde(default)]
+    pub largest_rocking_deg: f64,
 }
 
 impl UnitSummary {
-    /// Computes displacements, direction and damage from first and last position [m]. Sets forces and contacts to zero.
+    /// Computes displacements, direction and damage from first and last position [m]. Sets forces, contacts and rocking
+    /// to zero.
     pub fn moved(
         unit: u32,
         start_m: [f64; 3],
@@ -153,21 +176,28 @@ mod tests {
             rotation_limit_deg: 15.0,
             ..GroupSummary::default()
         };
-        let limits = DamageLimits { measure: DamageMeasure::Spatial, distance: 0.03, rotation_deg: 15.0 };
-        let unit = |number, end, turned| UnitSummary::moved(number, [0.0, 0.0, 0.2], end, turned, limits);
+        let limits =
+            DamageLimits { measure: DamageMeasure::Spatial, distance: 0.03, rotation_deg: 15.0, rocking_deg: 2.0 };
+        let unit = |number, end, turned, rocking_movements| UnitSummary {
+            rocking_movements,
+            ..UnitSummary::moved(number, [0.0, 0.0, 0.2], end, turned, limits)
+        };
         let units = [
             // Not of the group.
-            unit(1, [1.0, 0.0, 0.2], 90.0),
-            unit(2, [0.0, 0.0, 0.2], 14.0),
+            unit(1, [0.0, 0.0, 0.2], 90.0, 4),
+            unit(2, [0.0, 0.0, 0.2], 14.0, 0),
             // Falls by less than D_n, and by more than D_n.
-            unit(3, [0.0, 0.0, 0.16], 16.0),
-            unit(4, [0.03, 0.0, 0.12], 0.0),
-            unit(5, [0.06, 0.08, 0.2], 40.0),
+            unit(3, [0.0, 0.0, 0.16], 16.0, 1),
+            unit(4, [0.03, 0.0, 0.12], 0.0, 0),
+            // Displaced units do not count as rocking.
+            unit(5, [0.06, 0.08, 0.2], 40.0, 7),
         ];
         armour.count(&units, 0.4);
         assert_eq!((armour.displaced, armour.rotated, armour.damage_ratio), (2, 2, 0.75));
         // Two displaced units in a flume of 0.4 m, which has eight strips of 0.05 m.
         assert!((armour.n_od - 0.25).abs() < 1e-12);
+        assert_eq!(armour.rocking, 1);
+        assert!((armour.n_or - 0.125).abs() < 1e-12 && (armour.n_omov - 0.375).abs() < 1e-12);
         assert!((armour.mean_displacement_m - 0.0325).abs() < 1e-12);
         assert!((armour.mean_settlement_m - 0.03).abs() < 1e-12);
     }

@@ -124,7 +124,9 @@ fn killed_runs_end_with_the_results_of_an_unbroken_run() {
     case["output"]["fluid_interval_s"] = json!(0.05);
     case["output"]["checkpoint_interval_s"] = json!(0.02);
     case["stop"]["duration_s"] = json!(0.6);
-    kill_and_resume(&case, 5);
+    let state = kill_and_resume(&case, 5);
+    let turns = state["statistics"]["rocking"][0]["turns"].as_u64().unwrap();
+    assert!(turns > 0, "the block did not rock");
 }
 
 #[test]

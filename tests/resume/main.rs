@@ -13,7 +13,8 @@ use std::{
 use hdf5_metno::{File, Group};
 use serde_json::{Value, json};
 
-/// A dam break in a two-dimensional tank with a block that the water reaches.
+/// A dam break in a two-dimensional tank with a block that the water reaches. The block starts on one edge, inclined by
+/// 10 degrees, and rocks.
 fn tank() -> Value {
     json!({
         "title": "tank",
@@ -22,12 +23,15 @@ fn tank() -> Value {
                     "water": { "kind": "block", "x_m": [0.0, 0.5], "top_z_m": 0.3 } },
         "numerics": { "hold_units_s": 0.02 },
         "units": { "shape": "cuboid", "size_m": [0.1, 0.1, 0.1], "mass_kg": 2.3, "material": "stone",
-                   "centres_m": [[0.8, 0.0, 0.05]] },
+                   "rocking_limit_deg": 0.1,
+                   "poses": [{ "centre_m": [0.8, 0.0, 0.058],
+                               "quaternion_xyzw": [0.0, 0.08715574, 0.0, 0.9961947] }] },
         "materials": [{ "name": "stone", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
         "friction": [{ "between": ["stone", "stone"], "coefficient": 0.5 }],
         // Checkpoints are between rows, so that a mean over the time since the last row continues too.
         "gauges": [{ "kind": "elevation", "name": "wall", "x_m": 0.95 },
-                   { "kind": "pressure", "name": "bed", "at_m": [0.1, 0.0, 0.0] }],
+                   { "kind": "pressure", "name": "bed", "at_m": [0.1, 0.0, 0.0] },
+                   { "kind": "force", "name": "block", "on": "units" }],
         "output": { "units_interval_s": 0.02, "series_interval_s": 0.005, "checkpoint_interval_s": 0.042 },
         "stop": { "duration_s": 0.2 }
     })

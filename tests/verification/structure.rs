@@ -228,7 +228,7 @@ fn still_water_presses_on_a_wall_with_its_hydrostatic_force() {
     assert!(matches!(case.flume.parts[0].shape, PartShape::Section(_)));
     let options =
         RunOptions { control: Control { quiet: true, silent: true, ..Control::default() }, ..RunOptions::default() };
-    run(Arc::new(case), folder.path(), &options).unwrap();
+    let summary = run(Arc::new(case), folder.path(), &options).unwrap();
     let table = Table::read(&folder.path().join("gauges.csv")).unwrap();
     let mean = |column: &str| {
         let values = table.column(column).unwrap();
@@ -243,6 +243,20 @@ fn still_water_presses_on_a_wall_with_its_hydrostatic_force() {
     assert!((along - 1.0).abs() < 0.01 && across.abs() < 1e-3 && up.abs() < 1e-3);
     // The force acts at a third of the depth. Limit 2 %: an eighth of a particle spacing.
     assert!((about - 1.0).abs() < 0.02);
+    // The summary agrees with the table; limit of the impulse: rounding.
+    let (gauge, times) = (&summary.force_gauges[0], table.column("time_s").unwrap());
+    let forces = table.column("wall_fx_n").unwrap();
+    let impulse: f64 = times.windows(2).zip(&forces[1..]).map(|(time, force)| (time[1] - time[0]) * force).sum();
+    assert!((gauge.impulse_n_s[0] / impulse - 1.0).abs() < 1e-12);
+    for (column, extremes) in [("wall_fx_n", &gauge.force_n), ("wall_mx_n_m", &gauge.moment_n_m)] {
+        let values = table.column(column).unwrap();
+        let row = |time: f64| times.iter().position(|row| *row == time).unwrap();
+        let [largest, smallest] = [extremes.largest_at_s[0], extremes.smallest_at_s[0]].map(|time| values[row(time)]);
+        assert_eq!([largest, smallest], [extremes.largest[0], extremes.smallest[0]]);
+        assert!(values.iter().all(|value| (smallest..=largest).contains(value)));
+    }
+    // Still water after the damped start: the impulse is the hydrostatic force times the duration.
+    assert!((gauge.impulse_n_s[0] / (0.6 * force) - 1.0).abs() < 0.01);
 }
 
 #[test]

@@ -80,6 +80,9 @@ pub struct UnitsFile {
     /// A unit counts as rotated if it rotates by more than this angle [degrees]. Default: 15.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation_limit_deg: Option<f64>,
+    /// A rotation back and forth counts as rocking if it is larger than this angle [degrees]. Default: 2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rocking_limit_deg: Option<f64>,
 }
 
 /// Way of a unit that counts for its damage.

@@ -1,4 +1,4 @@
-//! When a unit counts as damaged.
+//! When a unit counts as damaged, rotated or rocking.
 
 use crate::case::file::{DamageMeasure, UnitsFile};
 use crate::case::reading::check::{Checker, more_than};
@@ -6,7 +6,11 @@ use crate::case::reading::check::{Checker, more_than};
 /// Rotation above which a unit counts as rotated, by default [degrees].
 const ROTATION: f64 = 15.0;
 
-/// Limits above which a unit counts as damaged or rotated.
+/// Angle above which a rotation back and forth counts as rocking, by default [degrees]. The far end of a unit that rocks
+/// about its edge then moves by 3.5 % of its size, in a model with units of 5 cm by 2 mm.
+const ROCKING: f64 = 2.0;
+
+/// Limits above which a unit counts as damaged, rotated or rocking.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DamageLimits {
     /// Way that counts.
@@ -15,6 +19,8 @@ pub struct DamageLimits {
     pub distance: f64,
     /// A unit counts as rotated if its rotation is larger [degrees].
     pub rotation_deg: f64,
+    /// A rotation back and forth counts as rocking if it is larger [degrees].
+    pub rocking_deg: f64,
 }
 
 impl DamageLimits {
@@ -36,7 +42,7 @@ impl DamageLimits {
 impl From<f64> for DamageLimits {
     /// Limit of the horizontal displacement [m], as in the experiments of Mitsui et al. (2023).
     fn from(distance: f64) -> Self {
-        Self { measure: DamageMeasure::Horizontal, distance, rotation_deg: ROTATION }
+        Self { measure: DamageMeasure::Horizontal, distance, rotation_deg: ROTATION, rocking_deg: ROCKING }
     }
 }
 
@@ -49,6 +55,9 @@ pub(super) fn validate(file: &UnitsFile, nominal_diameter: f64, check: &mut Chec
     let rotation_deg = file.rotation_limit_deg.unwrap_or(ROTATION);
     let advice = "leave the key out for 15 degrees";
     check.number(".rotation_limit_deg", rotation_deg, more_than(0.0).up_to(180.0), "degrees", advice);
+    let rocking_deg = file.rocking_limit_deg.unwrap_or(ROCKING);
+    let advice = "leave the key out for 2 degrees";
+    check.number(".rocking_limit_deg", rocking_deg, more_than(0.0).up_to(45.0), "degrees", advice);
     let measure = match file.damage_distance_m {
         Some(_) => DamageMeasure::Horizontal,
         None => DamageMeasure::Spatial,
@@ -57,6 +66,7 @@ pub(super) fn validate(file: &UnitsFile, nominal_diameter: f64, check: &mut Chec
         measure: file.damage_measure.unwrap_or(measure),
         distance: file.damage_distance_m.unwrap_or(nominal_diameter),
         rotation_deg,
+        rocking_deg,
     }
 }
 

@@ -31,7 +31,7 @@ pub struct UnitGroup {
     pub is_fixed: bool,
     /// In two dimensions, width of a unit / thickness of the particle layer [-]; 1 in three dimensions.
     pub slices: f64,
-    /// Limits above which a unit counts as damaged or rotated.
+    /// Limits above which a unit counts as damaged, rotated or rocking.
     pub limits: DamageLimits,
     /// Material of the units, an index into `Case::materials`.
     pub material: usize,

@@ -7,7 +7,7 @@
 //! | [`pose`] | pose of a unit: position and rotation |
 //! | [`row`], [`centres`], [`poses`] | the three ways to place units |
 //! | [`planar`] | checks for units in two dimensions |
-//! | [`damage`] | limits above which a unit counts as damaged or rotated |
+//! | [`damage`] | limits above which a unit counts as damaged, rotated or rocking |
 //! | [`materials`], [`contact`], [`resistance`] | materials, contact settings, friction and restitution |
 
 mod centres;

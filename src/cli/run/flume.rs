@@ -98,6 +98,24 @@ fn tell(summary: &Summary, report: &Path, dir: &Path) {
     if let (Some(mean), Some(ratio)) = (summary.mean_displacement_m, summary.damage_ratio) {
         println!("  mean displacement {mean:.3} m, damage ratio {:.0} %", 100.0 * ratio);
     }
+    for group in summary.groups.iter().filter(|group| !group.fixed) {
+        println!(
+            "  {}: {} displaced (N_od {:.2}), {} rocking (N_or {:.2}), N_omov {:.2}",
+            group.name, group.displaced, group.n_od, group.rocking, group.n_or, group.n_omov
+        );
+    }
+    for gauge in summary.force_gauges.iter().take(MOST_LINES) {
+        println!("  force gauge {}", gauge.name);
+        for (component, [(largest, at), (smallest, then)], impulse) in gauge.components() {
+            let impulse = impulse.map_or(String::new(), |impulse| format!(", impulse {impulse:.4} N s"));
+            println!(
+                "    {component}: largest {largest:.4} at {at:.3} s, smallest {smallest:.4} at {then:.3} s{impulse}"
+            );
+        }
+    }
+    if summary.force_gauges.len() > MOST_LINES {
+        println!("  ... {} force gauges in total, see summary.json", summary.force_gauges.len());
+    }
     println!("report: {}", report.display());
     if Reference::folder_of_run(dir).is_some() {
         println!("compare with the measurements: breakwater compare {}", dir.display());

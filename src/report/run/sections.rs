@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     case::DamageMeasure,
-    output::{GroupSummary, Stopped, Summary, UnitSummary, WaveSummary},
+    output::{ForceSummary, GroupSummary, Stopped, Summary, UnitSummary, WaveSummary},
     report::{
         film::Scene,
         page::{grouped, section},
@@ -147,19 +147,23 @@ fn group_table(summary: &Summary) -> String {
     let row = |group: &GroupSummary| {
         let [first, last] = group.units;
         let results = match group.fixed {
-            true => "<td colspan=\"8\">fixed</td>".to_owned(),
+            true => "<td colspan=\"11\">fixed</td>".to_owned(),
             false => {
                 let way = match group.damage_measure {
                     DamageMeasure::Horizontal => "in plan",
                     DamageMeasure::Spatial => "in space",
                 };
                 format!(
-                    "<td>{} {way}</td><td>{} %</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.3}</td><td>{:.3}</td>",
+                    "<td>{} {way}</td><td>{} %</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
+                     <td>{}</td><td>{:.3}</td><td>{:.3}</td>",
                     short(group.damage_distance_m, 3),
                     short(100.0 * group.damage_ratio, 0),
                     short(group.nominal_diameter_m, 3),
                     group.displaced,
                     short(group.n_od, 2),
+                    group.rocking,
+                    short(group.n_or, 2),
+                    short(group.n_omov, 2),
                     group.rotated,
                     group.mean_displacement_m,
                     group.mean_settlement_m
@@ -169,14 +173,19 @@ fn group_table(summary: &Summary) -> String {
         format!("<tr><td>{}</td><td>{first} to {last}</td>{results}</tr>\n", escape(&group.name))
     };
     let rows: String = summary.groups.iter().map(row).collect();
-    let limits = summary.groups.iter().find(|group| !group.fixed).map_or(0.0, |group| group.rotation_limit_deg);
+    let limits = |group: &GroupSummary| [group.rotation_limit_deg, group.rocking_limit_deg];
+    let [rotation, rocking] = summary.groups.iter().find(|group| !group.fixed).map_or([0.0; 2], limits);
     format!(
         "<div class=\"scroll\"><table>\n<thead><tr><th>Group</th><th>Units</th><th>Damage distance [m]</th>\
-         <th>Damaged</th><th>D<sub>n</sub> [m]</th><th>Displaced</th><th>N<sub>od</sub></th><th>Rotated</th>\
+         <th>Damaged</th><th>D<sub>n</sub> [m]</th><th>Displaced</th><th>N<sub>od</sub></th><th>Rocking</th>\
+         <th>N<sub>or</sub></th><th>N<sub>omov</sub></th><th>Rotated</th>\
          <th>Mean displace&shy;ment [m]</th><th>Mean settlement [m]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n\
          <figcaption>Displaced: the centre moved further than D<sub>n</sub> in space. N<sub>od</sub>: displaced units in a \
-         strip of the width D<sub>n</sub>. Rotated: by more than {} degrees. Settlement: fall of the centre.</figcaption>\n",
-        short(limits, 0)
+         strip of the width D<sub>n</sub>. Rocking: rotated back and forth by more than {} degrees, and not displaced. \
+         N<sub>or</sub>: rocking units in this strip. N<sub>omov</sub> = N<sub>od</sub> + N<sub>or</sub>. Rotated: by \
+         more than {} degrees from the start to the end. Settlement: fall of the centre.</figcaption>\n",
+        short(rocking, 1),
+        short(rotation, 0)
     )
 }
 
@@ -184,13 +193,16 @@ fn unit_table(summary: &Summary) -> String {
     let row = |u: &UnitSummary| {
         let damaged = if u.damaged { "<td class=\"yes\">yes</td>" } else { "<td>no</td>" };
         format!(
-            "<tr><td>{}</td><td>{:.3}</td>{damaged}<td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            "<tr><td>{}</td><td>{:.3}</td>{damaged}<td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{}</td><td>{}</td>\
+             <td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
             u.unit,
             u.displacement_m,
             short(u.direction_deg, 0),
             u.end_m[0] - u.start_m[0],
             u.end_m[2] - u.start_m[2],
             short(u.rotation_deg, 0),
+            u.rocking_movements,
+            short(u.largest_rocking_deg, 1),
             short(u.peak_fluid_force_n, 2),
             short(u.peak_contact_force_n, 1),
             u.bed_contacts,
@@ -202,11 +214,13 @@ fn unit_table(summary: &Summary) -> String {
     let mean = summary.mean_displacement_m.unwrap_or(0.0);
     format!(
         "<div class=\"scroll tall\" tabindex=\"0\" role=\"region\" aria-label=\"Table of the units\"><table>\n<thead><tr><th>Unit</th><th>Displace&shy;ment [m]</th><th>Damaged</th><th>Direction [&deg;]</th>\
-         <th>&Delta;x [m]</th><th>&Delta;z [m]</th><th>Rotation [&deg;]</th><th>Peak force of the water [N]</th>\
+         <th>&Delta;x [m]</th><th>&Delta;z [m]</th><th>Rotation [&deg;]</th>\
+         <th>Rocking movements</th><th>Largest rocking angle [&deg;]</th><th>Peak force of the water [N]</th>\
          <th>Peak contact force [N]</th><th>Contacts with bed</th><th>Contacts with units</th></tr></thead>\n<tbody>\n{rows}\
-         <tr class=\"sum\"><td>Mean</td><td>{mean:.3}</td><td>{} of {}</td><td colspan=\"8\"></td></tr>\n</tbody></table></div>\n\
+         <tr class=\"sum\"><td>Mean</td><td>{mean:.3}</td><td>{} of {}</td><td colspan=\"10\"></td></tr>\n</tbody></table></div>\n\
          <figcaption>Direction in plan view: 0 is shoreward, positive is towards larger y. The peak force of the water \
-         is the peak after subtraction of the mean force of still water.</figcaption>\n",
+         is the peak after subtraction of the mean force of still water. A rocking movement is a rotation away and \
+         back; its angle is the smaller of the two.</figcaption>\n",
         summary.damaged(),
         summary.movable()
     )
@@ -226,6 +240,7 @@ fn water(run: &RunFolder) -> String {
     content += "</p>\n";
     content += &gauge_table(&run.summary);
     content += &pressure_table(&run.summary);
+    content += &force_table(&run.summary);
     content += &format!("<div class=\"pair\">\n{}\n</div>\n", charts.join("\n"));
     section("Water at the gauges", &content)
 }
@@ -277,6 +292,31 @@ fn pressure_table(summary: &Summary) -> String {
          only.</p>\n<div class=\"scroll\"><table>\n<thead><tr><th>Gauge</th><th>x, y, z [m]</th>\
          <th>Highest mean [kPa]</th><th>Highest single value [kPa]</th></tr></thead>\n\
          <tbody>\n{rows}</tbody></table></div>\n"
+    )
+}
+
+fn force_table(summary: &Summary) -> String {
+    if summary.force_gauges.is_empty() {
+        return String::new();
+    }
+    let rows_of = |gauge: &ForceSummary| -> String {
+        let row = |(index, (name, extremes, impulse)): (usize, (&str, [(f64, f64); 2], Option<f64>))| {
+            let first = match index {
+                0 => format!("<td rowspan=\"6\">{}</td>", escape(&gauge.name)),
+                _ => String::new(),
+            };
+            let values = extremes.map(|(value, time)| format!("<td>{value:.4}</td><td>{time:.3}</td>")).concat();
+            let impulse = impulse.map_or("\u{2013}".to_owned(), |impulse| format!("{impulse:.4}"));
+            format!("<tr>{first}<td>{name}</td>{values}<td>{impulse}</td></tr>\n").replace(">-", ">\u{2212}")
+        };
+        gauge.components().enumerate().map(row).collect()
+    };
+    let rows: String = summary.force_gauges.iter().map(rows_of).collect();
+    format!(
+        "<p>The forces of the water are means over the time between two rows of <code>gauges.csv</code>; the times are \
+         those of the rows. The impulse is the sum of the means, each multiplied by its interval.</p>\n\
+         <div class=\"scroll\"><table>\n<thead><tr><th>Gauge</th><th>Component</th><th>Largest</th><th>at [s]</th>\
+         <th>Smallest</th><th>at [s]</th><th>Impulse [N s]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
 }
 

@@ -155,7 +155,6 @@ impl Simulation {
         let groups = units.as_ref().map_or(&[][..], |units| &units.groups);
         let unit_particles: Vec<_> =
             group::models(groups).map(|(_, model)| unit_in_place(model.shape.unit(), &case)).collect();
-        let count = units.as_ref().map_or(0, |units| units.states().len());
         let boundary = Boundary::new(
             &fixed_particles(&case, &outline, &across, reach),
             &ends.iter().map(|end| end_particles(&case, &across, end)).collect::<Vec<_>>(),
@@ -182,7 +181,7 @@ impl Simulation {
             bins_near_surfaces: bins_near_surfaces(&case, &outline, solver.grid()),
             part_faces: Vec::new(),
             solver,
-            statistics: Statistics::new(count),
+            statistics: Statistics::new(units.as_ref().map_or(&[], Units::states)),
             bounds: allowed,
             case,
             coarse: Vec::new(),

@@ -176,6 +176,9 @@ impl Simulation {
             }
             let recorded = RecordedUnits { world, loads: fluid_loads, first_group: groups[0].members.clone() };
             water_at_impacts.note(&recorded, since, &self.boundary, &self.solver.parameters().tait);
+            for (((group, _), state), rocking) in units.each().zip(units.states()).zip(&mut self.statistics.rocking) {
+                rocking.add(state.rotation, group.limits.rocking_deg.to_radians());
+            }
         } else if self.time >= 0.5 * self.case.numerics.hold_units {
             self.statistics.count_still_loads(&units.fluid_loads);
         }

@@ -7,5 +7,6 @@ pub mod gauge_means;
 pub mod mean_loads;
 pub mod part_faces;
 pub mod rest;
+pub mod rocking;
 pub mod statistics;
 pub mod water_at_impacts;

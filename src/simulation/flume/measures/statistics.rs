@@ -1,10 +1,10 @@
 //! Extremes and counts of a flume run that its tables do not contain.
 
-use super::{balance::Balance, gauge_means::GaugeMeans, rest::Rest};
+use super::{balance::Balance, gauge_means::GaugeMeans, rest::Rest, rocking::Rocking};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::rigid::Load;
+use crate::rigid::{BodyState, Load};
 
 /// Extremes and counts since the start of a run; part of every checkpoint.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -30,6 +30,10 @@ pub struct Statistics {
     pub peak_contact: f64,
     /// Largest approach velocity at the start of a contact [m/s].
     pub fastest_contact: f64,
+    /// Rocking of each unit.
+    // The default lets older checkpoints reach the message about their version.
+    #[serde(default)]
+    pub rocking: Vec<Rocking>,
     /// State of the rest criterion.
     pub rest: Rest,
     /// Energy of water and units at the start [J].
@@ -55,13 +59,15 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Returns the statistics of a run with `units` units, before its first time step.
-    pub fn new(units: usize) -> Self {
+    /// Returns the statistics of a run before its first time step. `starts` lists the units at the start.
+    pub fn new(starts: &[BodyState]) -> Self {
+        let units = starts.len();
         Self {
             still_force: (vec![[0.0; 3]; units], 0),
             peak_fluid_force: vec![0.0; units],
             peak_contact_force: vec![0.0; units],
             contacts: vec![[0; 2]; units],
+            rocking: starts.iter().map(|start| Rocking::new(start.rotation)).collect(),
             ..Self::default()
         }
     }

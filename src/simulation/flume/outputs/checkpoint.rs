@@ -28,7 +28,7 @@ use crate::{
 };
 
 /// Version of the file layout; increased when the layout changes.
-const VERSION: u32 = 22;
+const VERSION: u32 = 23;
 
 /// The state of a run without the arrays.
 #[derive(Serialize, Deserialize)]

@@ -4,22 +4,21 @@ use std::path::Path;
 
 use crate::simulation::flume::Simulation;
 use crate::{
-    case::{Case, Part, Quantity, Sides, UnitGroup, UnitModel, Wave, Wavemaker},
+    case::{Case, Gauge, Part, Quantity, Sides, UnitGroup, UnitModel, Wave, Wavemaker},
     output::{
-        ContactSummary, EnergySummary, Execution, GaugeSummary, GroupSummary, OutputError, ParticleCounts,
-        PressureSummary, SectionSummary, Stopped, Summary, Table, TimeStepSummary, UnitSummary, WaveSummary, columns,
+        ContactSummary, EnergySummary, Execution, ForceSummary, GaugeSummary, GroupSummary, OutputError,
+        ParticleCounts, PressureSummary, SectionSummary, Stopped, Summary, Table, TimeStepSummary, UnitSummary,
+        WaveSummary, columns,
     },
     waves::theory::solitary::PistonTheory,
 };
 
-/// Summarises a run; reads the highest elevation and pressure at each gauge from the gauge tables in the run folder
-/// `dir`.
+/// Summarises a run; reads the results of the gauges from the gauge tables in the run folder `dir`.
 ///
 /// # Errors
 /// If the gauge tables cannot be read.
 pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Result<Summary, OutputError> {
     let (case, statistics) = (&simulation.case, &simulation.statistics);
-    let (gauges, pressure_gauges) = gauges(simulation, dir)?;
     let counts = particle_counts(simulation);
     let steps_run = statistics.steps.max(1) as f64;
     let mut summary = Summary {
@@ -27,8 +26,6 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
         breakwater_version: env!("CARGO_PKG_VERSION").to_owned(),
         case_hash: case.hash.clone(),
         wave: wave(case),
-        gauges,
-        pressure_gauges,
         contacts: ContactSummary {
             with_bed: statistics.contacts.iter().map(|c| c[0]).sum(),
             between_units: statistics.contacts.iter().map(|c| c[1]).sum(),
@@ -73,6 +70,7 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
         },
         ..Summary::default()
     };
+    set_gauges(&mut summary, case, dir)?;
     if let Some(units) = &case.units {
         summary.set_groups(units.groups.iter().map(group_of).collect(), units_of(simulation));
     }
@@ -125,6 +123,7 @@ fn group_of(group: &UnitGroup) -> GroupSummary {
         damage_measure: group.limits.measure,
         damage_distance_m: group.limits.distance,
         rotation_limit_deg: group.limits.rotation_deg,
+        rocking_limit_deg: group.limits.rocking_deg,
         ..GroupSummary::default()
     }
 }
@@ -142,31 +141,43 @@ fn units_of(simulation: &Simulation) -> Vec<UnitSummary> {
             peak_contact_force_n: statistics.peak_contact_force[k],
             bed_contacts: statistics.contacts[k][0],
             unit_contacts: statistics.contacts[k][1],
+            rocking_movements: statistics.rocking[k].movements(),
+            largest_rocking_deg: statistics.rocking[k].largest_angle.to_degrees(),
             ..UnitSummary::moved(k as u32 + 1, from, to, angle.to_degrees(), group.limits)
         }
     };
     units.each().enumerate().map(summary_of).collect()
 }
 
-/// Returns the highest elevation at each elevation gauge and the highest pressures at each pressure gauge, read from
-/// the gauge tables.
-fn gauges(simulation: &Simulation, dir: &Path) -> Result<(Vec<GaugeSummary>, Vec<PressureSummary>), OutputError> {
+/// Sets the results of the gauges, read from the gauge tables: highest elevations and pressures, extremes and impulses
+/// of forces. A resumed run has the same tables, so these results need no state of their own.
+fn set_gauges(summary: &mut Summary, case: &Case, dir: &Path) -> Result<(), OutputError> {
     let particles = Table::read_if_present(&dir.join("gauges.csv"))?;
     let flume = Table::read_if_present(&dir.join("flume_gauges.csv"))?;
     let highest = |table: &Option<Table>, column: &str| {
         let series = table.as_ref()?.get(column)?;
         series.iter().copied().filter(|value| value.is_finite()).reduce(f64::max)
     };
-    let of = |quantity: Quantity| simulation.case.gauges.iter().filter(move |gauge| gauge.quantity == quantity);
-    let elevations = of(Quantity::Elevation).map(|gauge| GaugeSummary {
-        name: gauge.name.clone(),
-        x_m: gauge.at[0],
-        crest_sph_m: highest(&particles, &columns::elevation(&gauge.name)),
-        crest_flume_m: highest(&flume, &columns::elevation(&gauge.name)),
-    });
-    let pressures = of(Quantity::Pressure).filter(|gauge| gauge.in_domain).map(|gauge| {
-        let [highest_pa, highest_mean_pa] = columns::pressure(&gauge.name).map(|column| highest(&particles, &column));
-        PressureSummary { name: gauge.name.clone(), at_m: gauge.at, highest_mean_pa, highest_pa }
-    });
-    Ok((elevations.collect(), pressures.collect()))
+    for Gauge { name, quantity, at, in_domain, .. } in &case.gauges {
+        match quantity {
+            Quantity::Elevation => summary.gauges.push(GaugeSummary {
+                name: name.clone(),
+                x_m: at[0],
+                crest_sph_m: highest(&particles, &columns::elevation(name)),
+                crest_flume_m: highest(&flume, &columns::elevation(name)),
+            }),
+            Quantity::Pressure if *in_domain => {
+                let [highest_pa, highest_mean_pa] = columns::pressure(name).map(|column| highest(&particles, &column));
+                let pressure = PressureSummary { name: name.clone(), at_m: *at, highest_mean_pa, highest_pa };
+                summary.pressure_gauges.push(pressure);
+            }
+            Quantity::Force(_) | Quantity::PartForce(_) => {
+                if let Some(table) = &particles {
+                    summary.force_gauges.push(ForceSummary::from_table(name, *at, table)?);
+                }
+            }
+            Quantity::Pressure | Quantity::Velocity => {}
+        }
+    }
+    Ok(())
 }
