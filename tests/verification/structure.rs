@@ -212,7 +212,9 @@ fn wall(structure: Value) -> Value {
         "flume": { "bed_m": [[0.0, 0.0], [0.5, 0.0]], "still_water_level_m": DEPTH },
         "structure": structure,
         "domain": { "x_m": [0.0, 0.5], "width_m": WIDTH, "sides": "periodic", "top_z_m": 0.36, "dp_m": 0.01 },
-        "gauges": [{ "kind": "force", "name": "wall", "on": "wall", "about_m": [0.3, 0.0, 0.0] }],
+        "gauges": [{ "kind": "force", "name": "wall", "on": "wall", "about_m": [0.3, 0.0, 0.0] },
+            { "kind": "pressure", "name": "face", "at_m": [0.3, 0.5 * WIDTH, 0.03],
+              "line": { "to_m": [0.3, 0.5 * WIDTH, 0.15], "count": 4 } }],
         "output": { "series_interval_s": 0.05, "units_interval_s": 0, "fluid_interval_s": 0, "surface_interval_s": 0,
             "checkpoint_interval_s": 0 },
         "stop": { "duration_s": 0.6 },
@@ -243,6 +245,13 @@ fn still_water_presses_on_a_wall_with_its_hydrostatic_force() {
     assert!((along - 1.0).abs() < 0.01 && across.abs() < 1e-3 && up.abs() < 1e-3);
     // The force acts at a third of the depth. Limit 2 %: an eighth of a particle spacing.
     assert!((about - 1.0).abs() < 0.02);
+    // The pressures on a line up the face. Limit: 1 % of the pressure at the bed.
+    for (gauge, z) in [0.03, 0.07, 0.11, 0.15].into_iter().enumerate() {
+        let column = format!("face_{}_p_mean_pa", gauge + 1);
+        let error = mean(&column) / (1000.0 * GRAVITY * DEPTH) - (1.0 - z / DEPTH);
+        println!("{column}: {error:+.4} of the pressure at the bed");
+        assert!(error.abs() < 0.01, "{column}");
+    }
     // The summary agrees with the table; limit of the impulse: rounding.
     let (gauge, times) = (&summary.force_gauges[0], table.column("time_s").unwrap());
     let forces = table.column("wall_fx_n").unwrap();

@@ -328,6 +328,16 @@ pub struct ElevationFile {
     pub y_m: Option<f64>,
 }
 
+/// A straight line of gauges.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LineFile {
+    /// End [x, y, z] of the line [m].
+    pub to_m: [f64; 3],
+    /// Number of gauges, including both ends.
+    pub count: u32,
+}
+
 /// A gauge that measures pressure or velocity at a point in the water.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -336,6 +346,9 @@ pub struct PointFile {
     pub name: String,
     /// Initial position [x, y, z] [m].
     pub at_m: [f64; 3],
+    /// Further gauges on a straight line from `at_m`, at equal distances. They have the names NAME_1, NAME_2, ...
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<LineFile>,
     /// Number of the unit with which the gauge moves, counted from 1. By default, the gauge does not move with a unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on_unit: Option<u32>,

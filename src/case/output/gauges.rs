@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
-use crate::case::file::{ForceFile, GaugeFile, PointFile, Sides, WaveFile};
+use crate::case::file::{ForceFile, GaugeFile, LineFile, PointFile, Sides, WaveFile};
 use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
 use crate::case::flume::part::{Part, PartShape};
@@ -127,11 +127,26 @@ pub fn validate(
                 (Quantity::Elevation, [elevation.x_m, y, flume.still_water_level], Motion::Fixed)
             }
             GaugeFile::Pressure(point) | GaugeFile::Velocity(point) => {
-                validate_point(&path, point, flume, domain, check);
+                let places = places(&path, point, check);
+                places.iter().for_each(|(_, at)| validate_point(&path, *at, flume, domain, check));
                 let pressure = matches!(gauge, GaugeFile::Pressure(_));
                 let quantity = if pressure { Quantity::Pressure } else { Quantity::Velocity };
                 let count = units.map_or(0, Units::count);
-                (quantity, point.at_m, validate_motion(&path, point, count, check))
+                let motion = validate_motion(&path, point, count, check);
+                for (name, at) in places {
+                    if gauges.iter().any(|other: &Gauge| other.name.eq_ignore_ascii_case(&name)) {
+                        let advice = "a line of gauges adds _1, _2, ... to its name: rename one of the two";
+                        check.reject(
+                            &format!("{path}.name"),
+                            format!("{name:?}"),
+                            "the name of one gauge only",
+                            advice,
+                        );
+                    }
+                    let (quantity, motion) = (quantity.clone(), motion.clone());
+                    gauges.push(Gauge { name, quantity, at, motion, in_domain: is_inside(at, domain) });
+                }
+                continue;
             }
             GaugeFile::Force(force) => {
                 let Some((quantity, at)) = validate_force(&path, force, flume, domain, units, check) else { continue };
@@ -139,7 +154,7 @@ pub fn validate(
             }
         };
         let is_force = matches!(quantity, Quantity::Force(_) | Quantity::PartForce(_));
-        let in_domain = is_force || (at[0] >= domain.x[0] && at[0] <= domain.x[1]);
+        let in_domain = is_force || is_inside(at, domain);
         gauges.push(Gauge { name: gauge_name(gauge).to_owned(), quantity, at, motion, in_domain });
     }
     gauges
@@ -189,8 +204,27 @@ fn validate_elevation(path: &str, x: f64, y: f64, flume: &Flume, domain: &Domain
     check_inside(&format!("{path}.y_m"), y, y_range(domain), "the domain's width", check);
 }
 
-fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain, check: &mut Checker) {
-    let [x, y, z] = point.at_m;
+fn is_inside(at: [f64; 3], domain: &Domain) -> bool {
+    at[0] >= domain.x[0] && at[0] <= domain.x[1]
+}
+
+/// Returns name and position [m] of a gauge, or of all gauges of a line.
+fn places(path: &str, point: &PointFile, check: &mut Checker) -> Vec<(String, [f64; 3])> {
+    let Some(LineFile { to_m, count }) = point.line else { return vec![(point.name.clone(), point.at_m)] };
+    if !(2..=MOST_GAUGES as u32).contains(&count) {
+        let advice = "leave out `line` for a single gauge";
+        check.reject(&format!("{path}.line.count"), count, format!("2 to {MOST_GAUGES}"), advice);
+        return Vec::new();
+    }
+    let place = |number: u32| {
+        let share = f64::from(number) / f64::from(count - 1);
+        let at = std::array::from_fn(|axis| point.at_m[axis] + share * (to_m[axis] - point.at_m[axis]));
+        (format!("{}_{}", point.name, number + 1), at)
+    };
+    (0..count).map(place).collect()
+}
+
+fn validate_point(path: &str, [x, y, z]: [f64; 3], flume: &Flume, domain: &Domain, check: &mut Checker) {
     check_inside(&format!("{path}.at_m[0]"), x, domain.x, "the domain", check);
     check_inside(&format!("{path}.at_m[1]"), y, y_range(domain), "the domain's width", check);
     let range = "the range from the bed to the top of the walls";
@@ -198,7 +232,7 @@ fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain,
     let is_in = |part: &&Part| match &part.shape {
         PartShape::Bed(_) => false,
         PartShape::Section(polygon) => polygon.distance(DVec2::new(x, z)) < -FLUSH * domain.dp,
-        PartShape::Box(bounds) => bounds.contains(point.at_m.into()),
+        PartShape::Box(bounds) => bounds.contains(DVec3::new(x, y, z)),
     };
     if let Some(part) = flume.parts.iter().find(is_in) {
         check.reject(
