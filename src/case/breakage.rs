@@ -18,6 +18,8 @@ const MOST_CORES: usize = 1024;
 pub struct BreakageSettings {
     /// Length scale: prototype length / length in the case [-].
     pub scale: f64,
+    /// Index of the group of units.
+    pub group: usize,
     /// Mesh of one unit, scaled to the size of the units in the case.
     pub mesh: UnitMesh,
     /// Content of the mesh file.
@@ -67,6 +69,21 @@ impl BreakageSettings {
     }
 }
 
+/// Returns the index of the group whose breakage is analysed.
+fn group_of(file: &BreakageFile, units: &Units, check: &mut Checker) -> Option<usize> {
+    let found = match &file.group {
+        Some(name) => units.groups.iter().position(|group| group.name == *name),
+        None => (units.groups.len() == 1).then_some(0),
+    };
+    if found.is_none() {
+        let names: Vec<String> = units.groups.iter().map(|group| format!("{:?}", group.name)).collect();
+        let given = file.group.as_ref().map_or("(missing)".to_owned(), |name| format!("{name:?}"));
+        let advice = "the analysis includes the impacts of units of one group";
+        check.reject("breakage.group", given, format!("one of {}", names.join(", ")), advice);
+    }
+    found
+}
+
 /// Validates the entry `breakage`. `name` is the path of the case file; the path of the mesh is relative to its folder.
 pub(super) fn validate(
     file: &BreakageFile,
@@ -75,13 +92,11 @@ pub(super) fn validate(
     check: &mut Checker,
 ) -> Option<BreakageSettings> {
     let before = check.count();
-    let [group] = &units.groups[..] else {
-        let given = format!("given with {} groups of units", units.groups.len());
-        check.reject("breakage", given, "left out unless there is one group", "analyse each group in a run of its own");
-        return None;
-    };
+    let index = group_of(file, units, check)?;
+    let group = &units.groups[index];
     if group.models.len() > 1 {
-        check.reject("breakage", "given with rocks", "left out with rocks", "analyse units of concrete");
+        let advice = "name another group in `breakage.group`";
+        check.reject("breakage", format!("for the rocks {:?}", group.name), "for units of one shape", advice);
         return None;
     }
     let advice = "50 for a 1:50 model, 1 for units at prototype scale";
@@ -129,6 +144,7 @@ pub(super) fn validate(
     }
     let settings = BreakageSettings {
         scale: file.scale,
+        group: index,
         mesh,
         mesh_file,
         material: file.material.clone(),

@@ -16,6 +16,9 @@ pub struct BreakageFile {
     /// Path of a mesh file (Gmsh format MSH 4.1) of one unit, relative to the folder of the case file. The mesh must be
     /// in the body axes of the unit and may have any size.
     pub mesh: String,
+    /// Name of the group of units. Required if the case has several groups.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
     /// Concrete of the prototype units. Its density follows from `units.mass_kg` and the volume of a unit.
     pub material: BreakageMaterialFile,
     /// Material of bed and mound, which are modelled as an elastic block. Default: the concrete of the units.

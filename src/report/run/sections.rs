@@ -300,7 +300,8 @@ fn force_table(summary: &Summary) -> String {
         return String::new();
     }
     let rows_of = |gauge: &ForceSummary| -> String {
-        let row = |(index, (name, extremes, impulse)): (usize, (&str, [(f64, f64); 2], Option<f64>))| {
+        let components = gauge.components().enumerate();
+        let rows = components.map(|(index, (name, extremes, impulse))| {
             let first = match index {
                 0 => format!("<td rowspan=\"6\">{}</td>", escape(&gauge.name)),
                 _ => String::new(),
@@ -308,8 +309,8 @@ fn force_table(summary: &Summary) -> String {
             let values = extremes.map(|(value, time)| format!("<td>{value:.4}</td><td>{time:.3}</td>")).concat();
             let impulse = impulse.map_or("\u{2013}".to_owned(), |impulse| format!("{impulse:.4}"));
             format!("<tr>{first}<td>{name}</td>{values}<td>{impulse}</td></tr>\n").replace(">-", ">\u{2212}")
-        };
-        gauge.components().enumerate().map(row).collect()
+        });
+        rows.collect()
     };
     let rows: String = summary.force_gauges.iter().map(rows_of).collect();
     format!(

@@ -1,17 +1,19 @@
 //! Properties of the units of a run that the breakage analysis needs.
 
+use std::ops::Range;
+
 use glam::{DMat3, DVec3};
 
 use crate::case::{Case, DryTestCase, Part, PartShape, Site, UnitShape, Units};
 use crate::case::{ContactLawName, Material as CaseMaterial};
-use crate::output::Impact;
+use crate::output::{Impact, Impacts};
 use crate::rigid::{BodyState, ContactEvent, Feature, Material};
 
 /// A contact point nearer than this to a part is on this part, divided by the height of the unit [-]: the deepest
 /// overlap is smaller.
 const AT_PART: f64 = 0.05;
 
-/// Properties of the units of a run.
+/// Properties of the units of the analysed group.
 #[derive(Debug, Clone)]
 pub struct Model {
     /// Shape of a unit.
@@ -20,8 +22,10 @@ pub struct Model {
     pub mass: f64,
     /// Inertia tensor of a unit in body axes, divided by its mass [m2].
     pub gyration: DMat3,
-    /// Number of units.
+    /// Number of units of the run.
     pub count: usize,
+    /// Indices of the units of the analysed group.
+    pub members: Range<usize>,
     /// Contact properties of the units.
     pub material: Material,
     /// Contact properties of the bed.
@@ -40,27 +44,36 @@ impl Model {
     /// Returns the properties of the units of a flume case; `None` if the case has no units.
     pub fn of_case(case: &Case) -> Option<Self> {
         let units = case.units.as_ref()?;
-        Some(Self::of_units(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity))
+        let group = case.breakage.as_ref().map_or(0, |settings| settings.group);
+        Some(Self::of_units(units, group, &case.site(), &case.materials, case.contact.law, case.fluid.gravity))
     }
 
     /// Returns the properties of the units of a dry test.
     pub fn of_dry(case: &DryTestCase) -> Self {
-        Self::of_units(&case.units, &case.site, &case.materials, case.contact.law, case.gravity)
+        let group = case.breakage.as_ref().map_or(0, |settings| settings.group);
+        Self::of_units(&case.units, group, &case.site, &case.materials, case.contact.law, case.gravity)
     }
 
-    fn of_units(units: &Units, site: &Site, materials: &[CaseMaterial], law: ContactLawName, gravity: f64) -> Self {
+    fn of_units(
+        units: &Units,
+        group: usize,
+        site: &Site,
+        materials: &[CaseMaterial],
+        law: ContactLawName,
+        gravity: f64,
+    ) -> Self {
         let material = |index: usize| {
             let CaseMaterial { young_modulus, poisson_ratio, restitution, .. } = materials[index];
             Material { young_modulus, poisson_ratio, restitution }
         };
-        // The case validation allows the breakage analysis only for units of one group.
-        let group = &units.groups[0];
+        let group = &units.groups[group];
         let in_water = site.parts.iter().filter(|part| !matches!(part.shape, PartShape::Bed(_)));
         Self {
             gyration: group.shape().unit().inertia(1.0),
             shape: group.shape().clone(),
             mass: group.models[0].mass,
             count: units.count(),
+            members: group.members.clone(),
             material: material(group.material),
             ground: material(units.ground_material),
             covers: site.covers.iter().map(|cover| (cover.x, material(cover.material))).collect(),
@@ -70,6 +83,11 @@ impl Model {
             law,
             gravity,
         }
+    }
+
+    /// Keeps the impacts of units of the group on each other, on bed, walls and parts.
+    pub fn keep_own(&self, impacts: &mut Impacts) {
+        impacts.impacts.retain(|impact| Role::of(impact).all(|role| self.members.contains(&role.unit)));
     }
 
     /// Returns the contact properties of the surface that a unit hits.

@@ -33,7 +33,7 @@ pub struct Breakage {
     pub damaged_ratio: f64,
     /// Share of the units that broke in the re-runs [-].
     pub broken_ratio: f64,
-    /// Results for each unit.
+    /// Results for each unit of the group.
     pub units: Vec<UnitBreakage>,
     /// The impacts that were re-run, the hardest first.
     pub impacts: Vec<Outcome>,
@@ -244,7 +244,8 @@ impl Breakage {
                 broken: share.map(|share| share < BROKEN),
             }
         };
-        let units: Vec<UnitBreakage> = moved.iter().enumerate().map(unit).collect();
+        let units: Vec<UnitBreakage> =
+            moved.iter().enumerate().filter(|(index, _)| model.members.contains(index)).map(unit).collect();
         let ratio = |is_counted: fn(&UnitBreakage) -> bool| {
             units.iter().filter(|unit| is_counted(unit)).count() as f64 / units.len().max(1) as f64
         };

@@ -60,7 +60,8 @@ pub fn analyse_breakage(
     control: &Control,
 ) -> Result<Breakage, BreakageError> {
     let file = dir.join(Impacts::FILE);
-    let impacts = Impacts::read(&file)?;
+    let mut impacts = Impacts::read(&file)?;
+    model.keep_own(&mut impacts);
     if moved.len() != model.count {
         let what = format!("lists {} units, but the case has {}; rerun the case", moved.len(), model.count);
         return Err(OutputError::content(&dir.join("summary.json"), what).into());

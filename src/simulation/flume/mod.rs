@@ -31,6 +31,7 @@ pub mod step;
 pub mod unit_setup;
 pub mod wave;
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -100,8 +101,10 @@ pub struct Simulation {
 
 /// The armour units.
 pub struct Units {
-    /// Groups of equal units.
+    /// Groups of units.
     pub groups: Vec<UnitGroup>,
+    /// Indices of the units whose water pressures are recorded at impacts. They have equal boundary particles.
+    pub recorded: Range<usize>,
     /// Solver of the rigid bodies: units, bed and contacts.
     pub world: RigidWorld,
     /// Poses of the units at the start.

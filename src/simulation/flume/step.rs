@@ -164,7 +164,7 @@ impl Simulation {
     fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
         let Some(units) = &mut self.units else { return Ok(()) };
         if self.time >= self.case.numerics.hold_units {
-            let Units { world, fluid_loads, water_at_impacts, groups, .. } = units;
+            let Units { world, fluid_loads, water_at_impacts, recorded, .. } = units;
             let since = world.time();
             if let Err(error) = world.advance(dt, fluid_loads) {
                 return Err(failure::of_units(self, error));
@@ -174,8 +174,8 @@ impl Simulation {
             {
                 memory.fetch_boundary_densities(&mut self.boundary)?;
             }
-            let recorded = RecordedUnits { world, loads: fluid_loads, first_group: groups[0].members.clone() };
-            water_at_impacts.note(&recorded, since, &self.boundary, &self.solver.parameters().tait);
+            let units_now = RecordedUnits { world, loads: fluid_loads, recorded: recorded.clone() };
+            water_at_impacts.note(&units_now, since, &self.boundary, &self.solver.parameters().tait);
             for (((group, _), state), rocking) in units.each().zip(units.states()).zip(&mut self.statistics.rocking) {
                 rocking.add(state.rotation, group.limits.rocking_deg.to_radians());
             }

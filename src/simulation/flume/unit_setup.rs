@@ -8,7 +8,7 @@ use super::{
 };
 use crate::simulation::bodies::rigid_setup;
 use crate::{
-    case::{self, Case},
+    case::{self, Case, UnitGroup},
     geometry::armour_unit::ArmourUnit,
     rigid::{Load, RigidError, RigidWorld},
     sph::{
@@ -31,7 +31,9 @@ pub(super) fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, Ri
     let start = world.states().to_vec();
     let (fluid_loads, mean_loads) = (vec![Load::default(); start.len()], MeanLoads::new(start.len()));
     let groups = units.groups.clone();
-    Ok(Units { groups, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
+    let UnitGroup { members, models, .. } = &groups[case.breakage.as_ref().map_or(0, |settings| settings.group)];
+    let recorded = if models.len() == 1 { members.clone() } else { members.start..members.start + 1 };
+    Ok(Units { groups, recorded, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
 }
 
 /// Returns the boundary particles of a unit in body axes; in two dimensions, those of a slice of the unit. If a cuboid

@@ -135,11 +135,14 @@ impl Boundary {
         &self.unit_numbers
     }
 
-    /// Returns position and surface vector of each particle of the first unit, in the unit's axes [m]. These values are
-    /// the same for all units of its shape.
-    pub fn positions_in_first_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
-        let unit = self.units.first().cloned().unwrap_or_default();
-        unit.map(|particle| (self.anchor[particle], self.anchor_to_surface[particle]))
+    /// Returns position and surface vector of each particle of a unit, in the unit's axes [m]. These values are the same
+    /// for all units of its shape.
+    pub fn positions_in_unit(&self, unit: usize) -> impl Iterator<Item = (DVec3, DVec3)> {
+        self.units
+            .get(unit)
+            .cloned()
+            .unwrap_or_default()
+            .map(|particle| (self.anchor[particle], self.anchor_to_surface[particle]))
     }
 
     /// Returns the force on each unit and the torque about its centre of mass. `centres` lists the centres of mass [m];

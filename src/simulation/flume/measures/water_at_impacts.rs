@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Water loads at the force peaks of the hardest contacts of each unit; the key is the number of the contact. Pressures
-/// are recorded for the units of the first group, which have the same boundary particles; those of others are NaN.
+/// are recorded for units with the same boundary particles; those of others are NaN.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct WaterAtImpacts(pub BTreeMap<u64, FluidAtPeak>);
 
@@ -22,8 +22,8 @@ pub struct RecordedUnits<'a> {
     pub world: &'a RigidWorld,
     /// Water load on each unit.
     pub loads: &'a [Load],
-    /// Indices of the units of the first group.
-    pub first_group: Range<usize>,
+    /// Indices of the units whose pressures are recorded.
+    pub recorded: Range<usize>,
 }
 
 impl WaterAtImpacts {
@@ -31,15 +31,15 @@ impl WaterAtImpacts {
     /// The time step began at `since` [s], in the time of the rigid-body solver. Removes contacts that are neither
     /// active nor among the hardest of their unit.
     pub fn note(&mut self, units: &RecordedUnits, since: f64, boundary: &Boundary, tait: &Tait) {
-        let RecordedUnits { world, loads, first_group } = units;
+        let RecordedUnits { world, loads, recorded } = units;
         let mut noted = false;
         for event in world.impacts_with_peak_after(since) {
             let unit = event.body as usize;
-            let pressure = if first_group.contains(&unit) {
+            let pressure = if recorded.contains(&unit) {
                 let densities = &boundary.density[boundary.units()[unit].clone()];
                 densities.iter().map(|density| tait.pressure(*density) as f32).collect()
             } else {
-                vec![f32::NAN; boundary.units()[first_group.start].len()]
+                vec![f32::NAN; boundary.units()[recorded.start].len()]
             };
             self.0.insert(event.number, FluidAtPeak { load: loads[unit], pressure });
             noted = true;
@@ -51,8 +51,8 @@ impl WaterAtImpacts {
     }
 }
 
-/// Returns the boundary particles of a unit of the first group, at which water pressures are recorded.
-pub fn pressure_places(boundary: &Boundary) -> Vec<PressurePoint> {
+/// Returns the boundary particles of a unit at which water pressures are recorded. All recorded units have the same ones.
+pub fn pressure_places(boundary: &Boundary, unit: usize) -> Vec<PressurePoint> {
     let place = |(particle, to_surface)| PressurePoint { particle, to_surface };
-    boundary.positions_in_first_unit().map(place).collect()
+    boundary.positions_in_unit(unit).map(place).collect()
 }

@@ -221,7 +221,7 @@ impl Checkpoint {
             units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;
             units.fluid_loads = scalars.fluid_loads;
             units.mean_loads = scalars.mean_loads;
-            let points = simulation.boundary.positions_in_first_unit().count();
+            let points = simulation.boundary.positions_in_unit(units.recorded.start).count();
             if water_at_impacts.0.values().any(|water| water.pressure.len() != points) {
                 return Err(OutputError::content(&path, "does not match the particles of the units".to_owned()));
             }

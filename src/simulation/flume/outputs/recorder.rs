@@ -318,10 +318,10 @@ fn contact_clock(simulation: &Simulation, units: &Units) -> f64 {
 
 /// Returns the hardest impacts so far; `offset` [s] is added to their times to give flume times.
 fn impacts_of(simulation: &Simulation, units: &Units, offset: f64) -> Impacts {
-    let water = &units.water_at_impacts.0;
+    let (water, places) = (&units.water_at_impacts.0, pressure_places(&simulation.boundary, units.recorded.start));
     let contacts = units.world.impacts();
     let impact = |contact: &RecordedContact| Impact::new(contact, offset, water.get(&contact.event.number).cloned());
-    Impacts { places: pressure_places(&simulation.boundary), impacts: contacts.iter().map(impact).collect() }
+    Impacts { places, impacts: contacts.iter().map(impact).collect() }
 }
 
 fn count_contact(simulation: &mut Simulation, event: &ContactEvent) {
