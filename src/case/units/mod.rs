@@ -215,7 +215,7 @@ pub(super) fn validate_unplaced(
     }
     let (shapes, nominal_diameter) = (shapes?, nominal_diameter?);
     let mass = |shape: &UnitShape| match file.rock {
-        Some(rock) => rock::mass(shape, rock.d_n50_m, file.mass_kg),
+        Some(rock) => file.mass_kg * shape.volume() / rock.d_n50_m.powi(3),
         None => file.mass_kg,
     };
     Some(UnitGroup {

@@ -1,6 +1,5 @@
 //! Validates rocks: random shapes, and their sizes by the grading.
 
-use super::shape::{UnitKind, UnitShape};
 use crate::case::file::{RockFile, UnitsFile};
 use crate::case::reading::check::{Checker, at_least};
 
@@ -16,14 +15,13 @@ const QUANTILES: [f64; SHAPES / 2] =
 /// The shapes follow each other in steps of this rank in size, so that neighbours in a layer differ.
 const STEP: usize = 7;
 
-/// Validates the rocks and returns the kind of each of their shapes.
-pub(super) fn kinds(file: &UnitsFile, check: &mut Checker) -> Option<Vec<UnitKind>> {
+/// Validates the rocks, except for their size. Returns nominal diameter [m] and seed of each of their shapes.
+pub(super) fn shapes(file: &UnitsFile, check: &mut Checker) -> Option<Vec<(f64, u64)>> {
     let Some(RockFile { d_n50_m, grading, seed }) = file.rock else {
         check.reject(".rock", "(missing)", "the size of the rocks", "write \"rock\": { \"d_n50_m\": 0.05 }");
         return None;
     };
     let before = check.count();
-    super::shape::check_length(".rock.d_n50_m", d_n50_m, "write the median nominal diameter in metres", check);
     let advice = "narrow gradings have 1.2 to 1.5; split a wider grading into several groups";
     check.number(".rock.grading", grading, at_least(1.0).up_to(WIDEST), "", advice);
     for (key, written) in [("centres_m", file.centres_m.is_some()), ("count", file.count.is_some())] {
@@ -32,11 +30,9 @@ pub(super) fn kinds(file: &UnitsFile, check: &mut Checker) -> Option<Vec<UnitKin
             check.reject(&format!(".{key}"), "...", "left out with rocks, which differ in size", advice);
         }
     }
-    let kind = |shape: usize| UnitKind::Rock {
-        nominal_diameter: d_n50_m * relative_sizes(grading)[STEP * shape % SHAPES],
-        seed: seed.wrapping_add(shape as u64),
-    };
-    (check.count() == before).then(|| (0..SHAPES).map(kind).collect())
+    let sizes = relative_sizes(grading);
+    let shape = |shape: usize| (d_n50_m * sizes[STEP * shape % SHAPES], seed.wrapping_add(shape as u64));
+    (check.count() == before).then(|| (0..SHAPES).map(shape).collect())
 }
 
 /// Returns the nominal diameters of the shapes, divided by D_n50 [-], in increasing order. The diameters are log-normal.
@@ -49,11 +45,6 @@ fn relative_sizes(grading: f64) -> [f64; SHAPES] {
         let quantile = if rank < mirrored { -QUANTILES[rank] } else { QUANTILES[mirrored] };
         (sigma * quantile - 3.0 * sigma * sigma).exp()
     })
-}
-
-/// Returns the mass of a rock [kg]; `median` is the mass of a rock of the size D_n50 [kg].
-pub(super) fn mass(shape: &UnitShape, d_n50: f64, median: f64) -> f64 {
-    median * shape.volume() / d_n50.powi(3)
 }
 
 #[cfg(test)]

@@ -209,11 +209,19 @@ pub fn validate(
             }
         },
     };
-    let kinds = if file.shape == Shape::Rock { rock::kinds(file, check)? } else { vec![one?] };
+    let kinds = if file.shape == Shape::Rock { rocks(file, check)? } else { vec![one?] };
     if check.count() > before {
         return None;
     }
     kinds.into_iter().map(|kind| build(kind, file, rounding_share, check)).collect()
+}
+
+fn rocks(file: &UnitsFile, check: &mut Checker) -> Option<Vec<UnitKind>> {
+    let shapes = rock::shapes(file, check)?;
+    let advice = "write the median nominal diameter in metres";
+    check_length(".rock.d_n50_m", file.rock?.d_n50_m, advice, check);
+    let kind = |(nominal_diameter, seed)| UnitKind::Rock { nominal_diameter, seed };
+    Some(shapes.into_iter().map(kind).collect())
 }
 
 fn build(kind: UnitKind, file: &UnitsFile, rounding_share: f64, check: &mut Checker) -> Option<UnitShape> {
@@ -303,7 +311,7 @@ fn check_stl_size(unit: &StlUnit, scale: f64, check: &mut Checker) -> bool {
     fits
 }
 
-pub(super) fn check_length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bool {
+fn check_length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bool {
     check.number(path, value, at_least(SMALLEST).up_to(LARGEST), "m", advice)
 }
 
