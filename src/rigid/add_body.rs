@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::motion::{BodyState, Load};
 use super::search::Placements;
-use super::world::{NO_PAIR_LIST, RigidWorld};
+use super::world::RigidWorld;
 
 impl RigidWorld {
     /// Largest overlap [m] that a new body of the given kind at this position would have with bodies, ground and walls.
@@ -36,9 +36,7 @@ impl RigidWorld {
         self.contact_now.push(Load::default());
         self.contact_mean.push(Load::default());
         self.states.push(body);
-        self.path.push(0.0);
-        self.margin.push(0.0);
-        self.search_distance = NO_PAIR_LIST;
+        self.search.add_body();
         self.update_results();
     }
 }

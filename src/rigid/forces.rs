@@ -7,7 +7,7 @@ use super::contact::{Contact, ContactKey, ContactPoint, Feature, LONGEST_SUBSTEP
 use super::kinematics::{ContactMotion, Motion};
 use super::law::ContactLaw;
 use super::motion::Load;
-use super::record::{ContactRecords, ForceStep};
+use super::record::{ContactRecords, ForceStep, RecordedContact};
 use super::search::ground::places_between;
 use super::setup::{BodyKind, Ground, RigidSetup};
 
@@ -58,15 +58,28 @@ struct LawsOfKind {
     least_inertia: f64,
 }
 
-/// Result of one evaluation of all contacts.
-#[derive(Debug, Clone, Default)]
-pub struct Evaluation {
+/// State that an evaluation of all contacts advances.
+pub struct ContactResults<'a> {
     /// Total contact load on each body.
-    pub loads: Vec<Load>,
-    /// Active contacts, sorted by key.
-    pub contacts: Vec<Contact>,
-    /// Upper bound of the squared angular frequency of a body on its contact springs [1/s2].
-    pub frequency_squared: f64,
+    pub loads: &'a mut [Load],
+    /// Active contacts, sorted by key; before the evaluation, those of the last evaluation.
+    pub contacts: &'a mut Vec<Contact>,
+    /// Energy balance.
+    pub energy: &'a mut Energy,
+    /// Records of the active contacts, in the order of `contacts`.
+    pub records: &'a mut ContactRecords,
+}
+
+/// Memory of an evaluation.
+#[derive(Debug, Clone, Default)]
+pub struct EvaluationMemory {
+    /// Stiffness of the contacts of each body [N/m].
+    stiffness: Vec<f64>,
+    /// Contacts of the last evaluation, whether each of them continues, and their records.
+    before: Vec<Contact>,
+    used: Vec<bool>,
+    #[allow(clippy::vec_box, reason = "as in `ContactRecords::running`")]
+    old_records: Vec<Option<Box<RecordedContact>>>,
 }
 
 impl Laws {
@@ -98,31 +111,35 @@ impl Laws {
         }
     }
 
-    /// Computes the forces at the contact points. `before` lists the contacts of the last evaluation, in the order of
-    /// `records.running`.
+    /// Computes the forces at the contact points. Returns an upper bound of the squared angular frequency of a body on
+    /// its contact springs [1/s2].
     pub fn evaluate(
         &self,
         contact_points: &[ContactPoint],
-        before: &[Contact],
         motion: &Motion,
-        energy: &mut Energy,
-        records: &mut ContactRecords,
-    ) -> Evaluation {
-        let (bodies, substep) = (motion.placements.position.len(), motion.substep);
-        let mut out = Evaluation { loads: vec![Load::default(); bodies], ..Default::default() };
-        let mut stiffness = vec![0.0; bodies];
-        let mut used = vec![false; before.len()];
-        let mut old_records: Vec<_> = std::mem::take(&mut records.running).into_iter().map(Some).collect();
-        records.running.reserve(contact_points.len());
-        out.contacts.reserve(contact_points.len());
+        results: ContactResults,
+        memory: &mut EvaluationMemory,
+    ) -> f64 {
+        let ContactResults { loads, contacts, energy, records } = results;
+        let EvaluationMemory { stiffness, before, used, old_records } = memory;
+        let substep = motion.substep;
+        std::mem::swap(contacts, before);
+        contacts.clear();
+        loads.fill(Load::default());
+        stiffness.clear();
+        stiffness.resize(loads.len(), 0.0);
+        used.clear();
+        used.resize(before.len(), false);
+        old_records.clear();
+        old_records.extend(records.running.drain(..).map(Some));
         energy.elastic = 0.0;
         for point in contact_points {
             let pair = ContactMotion::new(point, motion);
-            self.add_stiffness(&pair, &mut stiffness);
+            self.add_stiffness(&pair, stiffness);
             if point.overlap <= 0.0 {
                 continue;
             }
-            let previous = find(before, &mut used, contact_points, point, self.least_radius);
+            let previous = find(before, used, contact_points, point, self.least_radius);
             let old = previous.map_or_else(|| Contact::started(point, substep), |i| before[i].continued_as(point));
             let mut record = previous
                 .and_then(|index| old_records[index].take())
@@ -136,12 +153,12 @@ impl Laws {
                 overlap: point.overlap - initial_overlap,
                 substep,
             };
-            let contact = deformed.advance(energy, &mut out.loads);
+            let contact = deformed.advance(energy, loads);
             record.add(ForceStep { substep, before: old.force, now: contact.force, v_n: pair.v_n });
             records.running.push(record);
-            out.contacts.push(contact);
+            contacts.push(contact);
         }
-        for (old, record) in before.iter().zip(old_records).filter_map(|(old, record)| Some((old, record?))) {
+        for (old, record) in before.iter().zip(old_records).filter_map(|(old, record)| Some((old, record.take()?))) {
             energy.friction += old.elastic[1] + old.elastic[2];
             if let Feature::Terrain { .. } = old.key.feature {
                 // A contact with a ridge can end before its overlap is zero. The stored energy counts as dissipated.
@@ -150,8 +167,7 @@ impl Laws {
             records.end(record, old.force, substep);
         }
         let frequency_squared = |(k, kind): (&f64, &usize)| k / self.kinds[*kind].mass;
-        out.frequency_squared = stiffness.iter().zip(motion.placements.kind).map(frequency_squared).fold(0.0, f64::max);
-        out
+        stiffness.iter().zip(motion.placements.kind).map(frequency_squared).fold(0.0, f64::max)
     }
 
     /// Adds the stiffness [N/m] of a contact to the sum of each of its bodies. A contact that can start within the
@@ -299,13 +315,15 @@ fn find(
             contact_points.binary_search_by_key(k, |t| t.key).is_ok_and(|i| contact_points[i].overlap > 0.0)
         };
         let left = |(c, used): (&Contact, &bool)| {
-            let same_part = (c.key.body, c.key.part) == (key.body, key.part);
-            let next = same_part && !*used && are_neighbours(c.key.feature, key.feature) && !touching(&c.key);
+            let next = !*used && are_neighbours(c.key.feature, key.feature) && !touching(&c.key);
             // Neighbouring ground elements have no gap between them, so the foot point `core` moves only a short way.
             next.then(|| c.core.distance(point.core)).filter(|path| *path < least_radius)
         };
-        let paths = before.iter().zip(used.iter()).map(left).enumerate();
-        paths.filter_map(|(index, p)| Some((index, p?))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+        // The contacts are sorted by body and part.
+        let first = before.partition_point(|c| (c.key.body, c.key.part) < (key.body, key.part));
+        let last = before.partition_point(|c| (c.key.body, c.key.part) <= (key.body, key.part));
+        let paths = (first..last).filter_map(|index| Some((index, left((&before[index], &used[index]))?)));
+        paths.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     })?;
     used[index] = true;
     Some(index)

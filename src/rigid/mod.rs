@@ -38,4 +38,4 @@ pub use motion::{BodyState, Load};
 pub use record::{ContactEvent, ForceHistory, ForceSample, RecordedContact};
 pub use setup::{Body, BodyKind, BodyShape, Cover, Ground, MaterialPair, RigidSetup, Sides, TriangleSurface};
 pub use snapshot::RigidSnapshot;
-pub use world::RigidWorld;
+pub use world::{RigidWorld, STEPS_PER_PERIOD};

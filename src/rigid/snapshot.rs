@@ -8,7 +8,7 @@ use super::error::RigidError;
 use super::forces::Energy;
 use super::motion::Load;
 use super::record::{ContactRecords, EventLog, ImpactLog, RecordedContact};
-use super::world::{NO_PAIR_LIST, RigidWorld};
+use super::world::RigidWorld;
 
 /// State of all bodies and contacts. It includes angular momentum and current contact forces, because recomputed values
 /// would differ in their last bits.
@@ -128,7 +128,7 @@ impl RigidWorld {
             impacts: snapshot.impacts.clone(),
             begun: snapshot.begun,
         };
-        self.search_distance = NO_PAIR_LIST;
+        self.search.forget();
         self.update_results();
         Ok(())
     }

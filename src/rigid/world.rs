@@ -10,23 +10,16 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::contact::{Contact, LONGEST_SUBSTEP, Substep};
 use super::error::RigidError;
-use super::forces::{Energy, Laws};
+use super::forces::{ContactResults, Energy, EvaluationMemory, Laws};
 use super::kinematics::{Motion, Velocities};
 use super::motion::{self, BodyState, Load};
 use super::record::{ContactEvent, ContactRecords, RecordedContact};
-use super::search::{PartPair, Placements, Surfaces};
+use super::search::{ContactSearch, Placements, Surfaces};
 use super::setup::{Body, BodyKind, BodyShape, RigidSetup, Sides};
 
 /// Number of substeps in the shortest oscillation period of a body on its contact springs [-]. With 80 substeps, the
 /// restitution of an impact is accurate to 1e-3 (see the tests). An impact lasts about two thirds of this period.
-const STEPS_PER_PERIOD: f64 = 80.0;
-
-/// Safety factor on the distance that a surface moves in a substep [-]. A body can rotate slightly faster at one end of
-/// the substep than on average.
-const PATH_SAFETY: f64 = 1.01;
-
-/// Value of `search_distance` that makes the next substep rebuild the list of part pairs.
-pub(super) const NO_PAIR_LIST: f64 = f64::NEG_INFINITY;
+pub const STEPS_PER_PERIOD: f64 = 80.0;
 
 /// Mass and inertia tensor of the bodies of one kind.
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +45,21 @@ impl Inertia {
     }
 }
 
+/// Memory of a substep. Each list has one entry per body.
+#[derive(Debug, Clone, Default)]
+struct Workspace {
+    /// Velocities [m/s] and angular velocities [rad/s] in the middle of the substep.
+    linear_mid: Vec<DVec3>,
+    angular_mid: Vec<DVec3>,
+    /// Angular velocities at the end of the substep [rad/s].
+    angular_velocity: Vec<DVec3>,
+    /// Accelerations [m/s2] and torques [N m] at the start and at the end of the substep.
+    old: Vec<(DVec3, DVec3)>,
+    new: Vec<(DVec3, DVec3)>,
+    /// Impulse of the contacts during a call of `advance`.
+    impulse: Vec<Load>,
+}
+
 /// Rigid bodies with their contacts.
 #[derive(Debug, Clone)]
 pub struct RigidWorld {
@@ -59,10 +67,10 @@ pub struct RigidWorld {
     pub(super) surfaces: Surfaces,
     pub(super) laws: Laws,
     pub(super) inertias: Vec<Inertia>,
-    pub(super) rounding: f64,
     pub(super) gravity: DVec3,
     /// Two-dimensional motion: bodies translate along x and z and rotate about y only.
     two_dimensional: bool,
+    steps_per_period: f64,
     // State.
     pub(super) time: f64,
     /// Kind of each body.
@@ -81,16 +89,9 @@ pub struct RigidWorld {
     pub(super) contact_mean: Vec<Load>,
     pub(super) substeps: u64,
     // Workspace.
-    angular_velocity: Vec<DVec3>,
-    pairs: Vec<PartPair>,
-    /// Pairs of `pairs` whose parts can be in contact now.
-    near: Vec<PartPair>,
-    /// `pairs` includes all part pairs whose gap was at most this distance when the list was built [m].
-    pub(super) search_distance: f64,
-    /// Upper bound of the distance that the surface of each body has moved since `pairs` was built [m].
-    pub(super) path: Vec<f64>,
-    /// Distance that the surface of each body can move in the longest substep at twice its speed [m].
-    pub(super) margin: Vec<f64>,
+    pub(super) search: ContactSearch,
+    evaluation: EvaluationMemory,
+    workspace: Workspace,
 }
 
 impl RigidWorld {
@@ -107,9 +108,9 @@ impl RigidWorld {
         let mut world = Self {
             surfaces: Surfaces::new(&setup),
             laws: Laws::new(&setup),
-            rounding: setup.kinds.iter().map(rounding_of).fold(f64::MAX, f64::min),
             gravity: setup.gravity,
             two_dimensional: setup.sides == Sides::TwoDimensional,
+            steps_per_period: STEPS_PER_PERIOD,
             time: 0.0,
             kind: setup.bodies.iter().map(|b| b.kind).collect(),
             angular_momentum: setup.bodies.iter().zip(&rotation).map(momentum).collect(),
@@ -125,14 +126,13 @@ impl RigidWorld {
             states: setup.bodies.iter().map(|b| b.state).collect(),
             contact_mean: vec![Load::default(); count],
             substeps: 0,
-            angular_velocity: vec![DVec3::ZERO; count],
-            pairs: Vec::new(),
-            near: Vec::new(),
-            search_distance: NO_PAIR_LIST,
-            path: vec![0.0; count],
-            margin: vec![0.0; count],
+            search: ContactSearch::new(count, setup.kinds.iter().map(rounding_of).fold(f64::MAX, f64::min)),
+            evaluation: EvaluationMemory::default(),
+            workspace: Workspace::default(),
         };
-        world.update_contacts(0.0, &vec![DVec3::ZERO; count], &vec![DVec3::ZERO; count])?;
+        let at_rest = vec![DVec3::ZERO; count];
+        let mut workspace = Workspace { linear_mid: at_rest.clone(), angular_mid: at_rest, ..Workspace::default() };
+        world.update_contacts(0.0, &mut workspace)?;
         world.update_results();
         Ok(world)
     }
@@ -165,6 +165,11 @@ impl RigidWorld {
     /// Largest overlap of the active contacts [m]; 0 without contacts.
     pub fn deepest_overlap(&self) -> f64 {
         self.contacts.iter().map(|contact| contact.overlap).fold(0.0, f64::max)
+    }
+
+    /// Size of the last contact search: number of part pairs in its list, and number of contact points found.
+    pub fn search_size(&self) -> [usize; 2] {
+        self.search.size()
     }
 
     /// Number of substeps since the start.
@@ -209,6 +214,12 @@ impl RigidWorld {
         self.gravity = gravity;
     }
 
+    /// Sets the number of substeps in the shortest oscillation period [-]; [`STEPS_PER_PERIOD`] at the start. Fewer
+    /// substeps save time where the restitution of impacts does not matter. The scheme is stable above pi substeps.
+    pub fn set_steps_per_period(&mut self, steps: f64) {
+        self.steps_per_period = steps;
+    }
+
     /// Advances all bodies by `dt` [s] under the given loads (without gravity), which are constant over `dt`.
     pub fn advance(&mut self, dt: f64, loads: &[Load]) -> Result<(), RigidError> {
         if loads.len() != self.position.len() {
@@ -217,13 +228,15 @@ impl RigidWorld {
         if !(dt >= 0.0 && dt.is_finite()) {
             return Err(RigidError::Setup { what: "the time step [s]".into(), value: dt, allowed: "0 or greater" });
         }
-        let mut impulse = vec![Load::default(); loads.len()];
+        let mut workspace = std::mem::take(&mut self.workspace);
+        workspace.impulse.clear();
+        workspace.impulse.resize(loads.len(), Load::default());
         let start = self.time;
         let mut left = dt;
         while left > 0.0 {
             let h = self.substep_length(left);
-            self.substep(h, loads)?;
-            for (sum, now) in impulse.iter_mut().zip(&self.contact_now) {
+            self.substep(h, loads, &mut workspace)?;
+            for (sum, now) in workspace.impulse.iter_mut().zip(&self.contact_now) {
                 sum.force += now.force * h;
                 sum.torque += now.torque * h;
             }
@@ -231,36 +244,38 @@ impl RigidWorld {
         }
         self.time = start + dt;
         if dt > 0.0 {
-            self.contact_mean =
-                impulse.iter().map(|sum| Load { force: sum.force / dt, torque: sum.torque / dt }).collect();
+            for (mean, sum) in self.contact_mean.iter_mut().zip(&workspace.impulse) {
+                *mean = Load { force: sum.force / dt, torque: sum.torque / dt };
+            }
         }
+        self.workspace = workspace;
         self.update_results();
         Ok(())
     }
 
     /// Returns a substep length [s] that divides the remaining time `left` [s] evenly and suits the stiffest contact.
     fn substep_length(&self, left: f64) -> f64 {
-        let longest = (TAU / self.frequency_squared.sqrt() / STEPS_PER_PERIOD).min(LONGEST_SUBSTEP);
+        let longest = (TAU / self.frequency_squared.sqrt() / self.steps_per_period).min(LONGEST_SUBSTEP);
         left / (left / longest).ceil().max(1.0)
     }
 
-    fn substep(&mut self, h: f64, loads: &[Load]) -> Result<(), RigidError> {
-        let old = self.accelerations(loads);
-        self.kick(&old, 0.5 * h);
+    fn substep(&mut self, h: f64, loads: &[Load], workspace: &mut Workspace) -> Result<(), RigidError> {
+        self.accelerations(loads, &mut workspace.old);
+        self.kick(&workspace.old, 0.5 * h);
         self.drift(h);
-        let linear_mid = self.velocity.clone();
-        let angular_mid = self.angular_velocities();
-        self.add_load_work(loads, &angular_mid, h);
-        self.kick(&old, 0.5 * h);
+        workspace.linear_mid.clone_from(&self.velocity);
+        self.angular_velocities(&mut workspace.angular_mid);
+        self.add_load_work(loads, &workspace.angular_mid, h);
+        self.kick(&workspace.old, 0.5 * h);
         self.time += h;
         self.check_finite()?;
-        self.update_contacts(h, &linear_mid, &angular_mid)?;
+        self.update_contacts(h, workspace)?;
         // Replace the extrapolated velocity: the second half of the update uses the new acceleration.
-        self.velocity.copy_from_slice(&linear_mid);
-        let new = self.accelerations(loads);
-        for body in 0..self.position.len() {
-            self.angular_momentum[body] += (new[body].1 - old[body].1) * (0.5 * h);
-            self.velocity[body] += new[body].0 * (0.5 * h);
+        self.velocity.copy_from_slice(&workspace.linear_mid);
+        self.accelerations(loads, &mut workspace.new);
+        for (body, (new, old)) in workspace.new.iter().zip(&workspace.old).enumerate() {
+            self.angular_momentum[body] += (new.1 - old.1) * (0.5 * h);
+            self.velocity[body] += new.0 * (0.5 * h);
         }
         self.substeps += 1;
         Ok(())
@@ -275,8 +290,8 @@ impl RigidWorld {
         }
     }
 
-    /// Acceleration [m/s2] and torque [N m] of each body.
-    fn accelerations(&self, loads: &[Load]) -> Vec<(DVec3, DVec3)> {
+    /// Computes the acceleration [m/s2] and torque [N m] of each body.
+    fn accelerations(&self, loads: &[Load], out: &mut Vec<(DVec3, DVec3)>) {
         let accelerate = |((external, contact), kind): ((&Load, &Load), &usize)| {
             let inertia = &self.inertias[*kind];
             if inertia.is_fixed() {
@@ -286,7 +301,8 @@ impl RigidWorld {
             let torque = external.torque + contact.torque;
             if self.two_dimensional { (acceleration.with_y(0.0), DVec3::Y * torque.y) } else { (acceleration, torque) }
         };
-        loads.iter().zip(&self.contact_now).zip(&self.kind).map(accelerate).collect()
+        out.clear();
+        out.extend(loads.iter().zip(&self.contact_now).zip(&self.kind).map(accelerate));
     }
 
     fn kick(&mut self, accelerations: &[(DVec3, DVec3)], dt: f64) {
@@ -309,8 +325,9 @@ impl RigidWorld {
         motion::angular_velocity(self.rotation[body], inverse, self.angular_momentum[body])
     }
 
-    fn angular_velocities(&self) -> Vec<DVec3> {
-        (0..self.position.len()).map(|body| self.angular_velocity_of(body)).collect()
+    fn angular_velocities(&self, out: &mut Vec<DVec3>) {
+        out.clear();
+        out.extend((0..self.position.len()).map(|body| self.angular_velocity_of(body)));
     }
 
     fn add_load_work(&mut self, loads: &[Load], angular_mid: &[DVec3], h: f64) {
@@ -321,46 +338,24 @@ impl RigidWorld {
     }
 
     /// Finds the contacts at the current positions and computes their forces.
-    fn update_contacts(&mut self, h: f64, linear: &[DVec3], angular: &[DVec3]) -> Result<(), RigidError> {
-        self.angular_velocity = self.angular_velocities();
-        self.update_near_pairs(h, linear, angular);
-        let placements = Placements { kind: &self.kind, rotation: &self.rotation, position: &self.position };
-        let contact_points =
-            self.surfaces.contact_points(&self.near, placements, &self.contacts, &self.margin, self.time)?;
+    fn update_contacts(&mut self, h: f64, workspace: &mut Workspace) -> Result<(), RigidError> {
+        self.angular_velocities(&mut workspace.angular_velocity);
+        let Workspace { linear_mid, angular_mid, angular_velocity, .. } = &*workspace;
         let motion = Motion {
-            placements,
-            now: Velocities { linear: &self.velocity, angular: &self.angular_velocity },
-            mean: Velocities { linear, angular },
+            placements: Placements { kind: &self.kind, rotation: &self.rotation, position: &self.position },
+            now: Velocities { linear: &self.velocity, angular: angular_velocity },
+            mean: Velocities { linear: linear_mid, angular: angular_mid },
             substep: Substep { dt: h, time: self.time },
         };
-        let evaluation =
-            self.laws.evaluate(&contact_points, &self.contacts, &motion, &mut self.energy, &mut self.records);
-        self.contact_now = evaluation.loads;
-        self.contacts = evaluation.contacts;
-        self.frequency_squared = evaluation.frequency_squared;
+        let contact_points = self.search.find(&self.surfaces, &motion, &self.contacts)?;
+        let results = ContactResults {
+            loads: &mut self.contact_now,
+            contacts: &mut self.contacts,
+            energy: &mut self.energy,
+            records: &mut self.records,
+        };
+        self.frequency_squared = self.laws.evaluate(contact_points, &motion, results, &mut self.evaluation);
         Ok(())
-    }
-
-    /// Updates the list of part pairs that can be in contact after a substep `h` [s] with the given mean velocities.
-    fn update_near_pairs(&mut self, h: f64, linear: &[DVec3], angular: &[DVec3]) {
-        for body in 0..self.position.len() {
-            let reach = self.surfaces.reach(self.kind[body]);
-            self.path[body] += PATH_SAFETY * h * (linear[body].length() + angular[body].length() * reach);
-            // The search covers everything that the body can reach in the longest substep at twice its speed.
-            let speed = self.velocity[body].length() + self.angular_velocity[body].length() * reach;
-            self.margin[body] = 2.0 * speed * LONGEST_SUBSTEP;
-        }
-        let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-        let margin = 2.0 * largest(&self.margin);
-        if self.search_distance < 2.0 * largest(&self.path) + margin {
-            self.search_distance = margin + self.rounding;
-            self.path.fill(0.0);
-            let placements = Placements { kind: &self.kind, rotation: &self.rotation, position: &self.position };
-            self.pairs = self.surfaces.near_parts(placements, self.search_distance);
-        }
-        let within: Vec<f64> = self.path.iter().zip(&self.margin).map(|(path, margin)| path + margin).collect();
-        self.near.clear();
-        self.near.extend(self.pairs.iter().filter(|pair| pair.can_be_near(&within)));
     }
 
     /// Updates the results that callers read: body states, kinetic and potential energy.

@@ -210,6 +210,10 @@ pub struct PlaneWall {
 impl PlaneWall {
     /// Appends the points where the core of a part is nearer than `reach` [m] to the wall.
     pub fn approaches(&self, part: &ConvexPart, rotation: DQuat, position: DVec3, reach: f64, out: &mut Vec<Approach>) {
+        let (centre, radius) = part.bounding_sphere();
+        if (rotation * centre + position - self.origin).dot(self.normal) >= radius + reach {
+            return;
+        }
         for (end, point) in part.ends(rotation.inverse() * -self.normal).enumerate() {
             let core = rotation * point + position;
             let distance = (core - self.origin).dot(self.normal);

@@ -1,17 +1,16 @@
 //! Contact points of bodies with each other, with periodic images, with the ground and with walls.
 //!
-//! Bounding spheres select pairs of bodies; distances between cores select pairs of parts. The list of part pairs
-//! includes gaps up to a margin, and is reused until the bodies have moved by this margin. Contact points are sorted by
-//! key, so sums over contact points always have the same order.
+//! Bounding spheres select pairs of bodies and pairs of parts. [`super::contact_search`] decides when the contact points
+//! of a pair are computed.
 
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
-use rayon::prelude::*;
 
 use super::broad_phase::{self, BodyPair};
 use super::ground::{Approach, GroundSurface, PlaneWall};
 use super::nearest_points::{self, Nearest};
+use super::part_pair::PartPair;
 use super::polyhedron_contact::{self, NearPoint};
 use super::terrain_contact;
 use crate::geometry::convex::convex_part::ConvexPart;
@@ -19,35 +18,6 @@ use crate::geometry::terrain::Terrain;
 use crate::rigid::contact::{Contact, ContactKey, ContactPoint, Feature, WHOLE_PART};
 use crate::rigid::error::RigidError;
 use crate::rigid::setup::{BodyKind, RigidSetup, Sides};
-
-/// Number of bodies per task of the thread pool. Each task takes some tens of microseconds.
-const BODIES: usize = 64;
-/// Number of pairs of parts per task of the thread pool.
-const PAIRS: usize = 24;
-
-/// Two parts near each other, of two bodies or of a body and its periodic image.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PartPair {
-    bodies: BodyPair,
-    parts: [usize; 2],
-    /// Gap between the rounded surfaces when the pair list was built [m], negative for an overlap.
-    gap: f64,
-}
-
-impl PartPair {
-    /// Identity of the contact between two features of the parts.
-    fn key(&self, features: [u16; 2]) -> ContactKey {
-        let [part, partner] = [0, 1].map(|k| self.parts[k] as u16 * (WHOLE_PART + 1) + features[k]);
-        let BodyPair { first, second, image } = self.bodies;
-        ContactKey { body: first as u32, part, feature: Feature::Unit { body: second as u32, image, part: partner } }
-    }
-
-    /// Returns true if the parts can be in contact. `travelled` is the largest distance [m] that the surface of each
-    /// body has moved since the pair list was built, plus the margin of the body.
-    pub fn can_be_near(&self, travelled: &[f64]) -> bool {
-        self.gap <= travelled[self.bodies.first] + travelled[self.bodies.second]
-    }
-}
 
 /// Kind, rotation and position of every body.
 #[derive(Debug, Clone, Copy)]
@@ -119,7 +89,7 @@ impl Surfaces {
         let mut near = Vec::new();
         pairs.iter().for_each(|pair| self.near_parts_of(pair, placements, 0.0, &mut near));
         for pair in &near {
-            self.part_contact_points(pair, placements, &[], 0.0, time, &mut contact_points)?;
+            self.part_contact_points(pair, placements, &[], [0.0; 2], time, &mut contact_points)?;
         }
         Ok(contact_points)
     }
@@ -133,21 +103,23 @@ impl Surfaces {
         &self.kinds[placements.kind[body]].parts
     }
 
-    /// Pairs of parts with gaps of at most `margin` [m], ordered by body and part numbers.
-    pub fn near_parts(&self, placements: Placements<'_>, margin: f64) -> Vec<PartPair> {
-        let radius = |body: usize| self.reach(placements.kind[body]) + 0.5 * margin;
-        let is_fixed = |body: usize| self.kinds[placements.kind[body]].is_fixed;
-        let mut bodies = broad_phase::pairs(placements.position, radius, self.period);
-        bodies.retain(|pair| !(is_fixed(pair.first) && is_fixed(pair.second)));
-        let near = map_chunks(&bodies, PAIRS, |pair, out| {
-            self.near_parts_of(pair, placements, margin, out);
-            Ok(())
-        });
-        // `near_parts_of` returns no errors, so the default is never used.
-        near.unwrap_or_default()
+    /// Returns true if the body does not move.
+    pub fn is_fixed(&self, body: usize, placements: Placements<'_>) -> bool {
+        self.kinds[placements.kind[body]].is_fixed
     }
 
-    /// Appends the pairs of parts of two bodies with gaps of at most `margin` [m].
+    /// Lists the pairs of parts with gaps of at most `margin` [m], ordered by body and part numbers.
+    pub fn near_parts(&self, placements: Placements<'_>, margin: f64, out: &mut Vec<PartPair>) {
+        let radius = |body: usize| self.reach(placements.kind[body]) + 0.5 * margin;
+        out.clear();
+        for pair in broad_phase::pairs(placements.position, radius, self.period) {
+            if !(self.is_fixed(pair.first, placements) && self.is_fixed(pair.second, placements)) {
+                self.near_parts_of(&pair, placements, margin, out);
+            }
+        }
+    }
+
+    /// Appends the pairs of parts of two bodies whose bounding spheres have gaps of at most `margin` [m].
     fn near_parts_of(&self, pair: &BodyPair, placements: Placements<'_>, margin: f64, out: &mut Vec<PartPair>) {
         let [(q_a, x_a), (q_b, x_b)] = self.poses(pair, placements);
         for (i, part_a) in self.parts(pair.first, placements).iter().enumerate() {
@@ -155,17 +127,10 @@ impl Surfaces {
             let centre_a = q_a * centre_a + x_a;
             for (j, part_b) in self.parts(pair.second, placements).iter().enumerate() {
                 let (centre_b, reach_b) = part_b.bounding_sphere();
-                let near = reach_a + reach_b + margin;
-                if (q_b * centre_b + x_b - centre_a).length_squared() > near * near {
-                    continue;
+                let clearance = (q_b * centre_b + x_b).distance(centre_a) - reach_a - reach_b;
+                if clearance <= margin {
+                    out.push(PartPair { bodies: *pair, parts: [i, j], clearance });
                 }
-                let roundings = part_a.rounding() + part_b.rounding();
-                let gap = match nearest_points::nearest(part_a, (q_a, x_a), part_b, (q_b, x_b), roundings + margin) {
-                    Nearest::Apart => continue,
-                    Nearest::Overlap => -roundings,
-                    Nearest::Points(p_a, p_b) => p_a.distance(p_b) - roundings,
-                };
-                out.push(PartPair { bodies: *pair, parts: [i, j], gap });
             }
         }
     }
@@ -182,33 +147,8 @@ impl Surfaces {
         DVec3::Y * (f64::from(pair.image) * self.period.unwrap_or(0.0))
     }
 
-    /// Contact points of the given pairs of parts, and of all bodies with the ground and the walls, sorted by key.
-    /// Points with gaps up to the margins of the bodies [m] are included.
-    pub fn contact_points(
-        &self,
-        pairs: &[PartPair],
-        placements: Placements<'_>,
-        before: &[Contact],
-        margins: &[f64],
-        time: f64,
-    ) -> Result<Vec<ContactPoint>, RigidError> {
-        let is_free = |body: &usize| !self.kinds[placements.kind[*body]].is_fixed;
-        let bodies: Vec<usize> = (0..placements.position.len()).filter(is_free).collect();
-        let fixed = map_chunks(&bodies, BODIES, |body, out| {
-            self.fixed_contact_points(*body, placements, margins[*body], time, out)
-        });
-        let mutual = map_chunks(pairs, PAIRS, |pair, out| {
-            let margin = margins[pair.bodies.first] + margins[pair.bodies.second];
-            self.part_contact_points(pair, placements, before, margin, time, out)
-        });
-        let mut contact_points = fixed?;
-        contact_points.extend(mutual?);
-        contact_points.sort_unstable_by_key(|t| t.key);
-        Ok(contact_points)
-    }
-
     /// Appends the contact points of a body with the ground and the walls.
-    fn fixed_contact_points(
+    pub fn fixed_contact_points(
         &self,
         body: usize,
         placements: Placements<'_>,
@@ -241,22 +181,24 @@ impl Surfaces {
         Ok(())
     }
 
-    /// Appends the contact points of two parts.
-    fn part_contact_points(
+    /// Appends the contact points of two parts with gaps of at most `margin` [m]. Returns a lower bound of the gap [m].
+    /// The bound is the gap itself up to `margin + measured` [m].
+    pub fn part_contact_points(
         &self,
         pair: &PartPair,
         placements: Placements<'_>,
         before: &[Contact],
-        margin: f64,
+        [margin, measured]: [f64; 2],
         time: f64,
         contact_points: &mut Vec<ContactPoint>,
-    ) -> Result<(), RigidError> {
+    ) -> Result<f64, RigidError> {
         let PartPair { bodies, parts, .. } = pair;
         let [pose_a, pose_b] = self.poses(bodies, placements);
         let part_a = &self.parts(bodies.first, placements)[parts[0]];
         let part_b = &self.parts(bodies.second, placements)[parts[1]];
         let roundings = [part_a.rounding(), part_b.rounding()];
-        let reach = roundings[0] + roundings[1] + margin;
+        let sum = roundings[0] + roundings[1];
+        let reach = sum + margin + measured;
         let shift = self.shift(bodies);
         let mut add = |near: NearPoint| {
             let point = unit_contact_point(pair, near, roundings, shift, time)?;
@@ -264,47 +206,33 @@ impl Surfaces {
             contact_points.push(ContactPoint { core, ..point });
             Ok(())
         };
+        let gap_of = |nearest: Nearest| match nearest {
+            Nearest::Apart => reach - sum,
+            Nearest::Overlap => -sum,
+            Nearest::Points(p_a, p_b) => p_a.distance(p_b) - sum,
+        };
         if let (Some(core_a), Some(core_b)) = (part_a.as_polyhedron(), part_b.as_polyhedron()) {
-            let rounding = 0.5 * (roundings[0] + roundings[1]);
-            let near = polyhedron_contact::near_points((core_a, pose_a), (core_b, pose_b), rounding, reach);
-            return near.into_iter().try_for_each(add);
+            let rounding = 0.5 * sum;
+            let near = polyhedron_contact::near_points((core_a, pose_a), (core_b, pose_b), rounding, sum + margin);
+            if near.is_empty() {
+                return Ok(gap_of(nearest_points::nearest(part_a, pose_a, part_b, pose_b, reach)));
+            }
+            near.into_iter().try_for_each(add)?;
+            return Ok(f64::NEG_INFINITY);
         }
         let key = pair.key([WHOLE_PART; 2]);
         let last_core = before.binary_search_by_key(&key, |contact| contact.key).ok().map(|index| before[index].core);
         let near_last =
             last_core.and_then(|core| nearest_points::nearest_from(part_a, pose_a, part_b, pose_b, core, reach));
-        match near_last.unwrap_or_else(|| nearest_points::nearest(part_a, pose_a, part_b, pose_b, reach)) {
-            Nearest::Apart => Ok(()),
+        let nearest = near_last.unwrap_or_else(|| nearest_points::nearest(part_a, pose_a, part_b, pose_b, reach));
+        let gap = gap_of(nearest);
+        if gap <= margin {
             // Two equal points stand for overlapping cores; `unit_contact_point` returns an error for them.
-            Nearest::Overlap => {
-                add(NearPoint { features: [WHOLE_PART; 2], points: [pose_a.1; 2], overlap_reduction: 0.0 })
-            }
-            Nearest::Points(p_a, p_b) => {
-                add(NearPoint { features: [WHOLE_PART; 2], points: [p_a, p_b], overlap_reduction: 0.0 })
-            }
+            let points = if let Nearest::Points(p_a, p_b) = nearest { [p_a, p_b] } else { [pose_a.1; 2] };
+            add(NearPoint { features: [WHOLE_PART; 2], points, overlap_reduction: 0.0 })?;
         }
+        Ok(gap)
     }
-}
-
-/// Collects the output of `find` in the order of the items. Each chunk of `length` items is a task of the thread pool.
-fn map_chunks<T: Sync, U: Send>(
-    items: &[T],
-    length: usize,
-    find: impl Fn(&T, &mut Vec<U>) -> Result<(), RigidError> + Sync,
-) -> Result<Vec<U>, RigidError> {
-    let find_in_chunk = |items: &[T]| {
-        let mut found = Vec::new();
-        items.iter().try_for_each(|item| find(item, &mut found)).map(|()| found)
-    };
-    if items.len() <= length {
-        return find_in_chunk(items);
-    }
-    let chunks: Vec<_> = items.par_chunks(length).map(find_in_chunk).collect();
-    let mut all = Vec::new();
-    for chunk in chunks {
-        all.extend(chunk?);
-    }
-    Ok(all)
 }
 
 /// Creates the contact point of two parts with the given rounding radii [m].

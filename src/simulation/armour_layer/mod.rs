@@ -16,7 +16,7 @@ use thiserror::Error;
 use crate::{
     case::{LayerJob, Layers, PlacedGroupFile, PlacementFile, PoseFile, group},
     random::SplitMix64,
-    rigid::{BodyState, Load, RigidError, RigidWorld},
+    rigid::{BodyState, Load, RigidError, RigidWorld, STEPS_PER_PERIOD},
     simulation::bodies::rigid_setup,
 };
 use lower::lowered;
@@ -42,6 +42,10 @@ const ROUND_TIME: f64 = 2.0;
 const LAST_TIME: f64 = 10.0;
 /// Units slower than this are at rest: speed divided by sqrt(g H), with the unit height H [-].
 const REST_SPEED: f64 = 1e-4;
+
+/// Number of substeps in the shortest oscillation period of a unit until all units are at rest [-]. The equilibrium of
+/// the units does not depend on the length of the substeps, and a rebound need not be exact while a layer is built.
+const COARSE_STEPS: f64 = 20.0;
 
 /// Reason why an armour layer cannot be placed.
 #[derive(Debug, Error)]
@@ -151,6 +155,7 @@ fn place_layers(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<Ar
     let world = RigidWorld::new(setup)?;
     let first = world.states().len();
     let mut yard = Yard { job, potential: world.energy().potential, world, first, begin: first };
+    yard.world.set_steps_per_period(COARSE_STEPS);
     let mut members = Vec::new();
     for layers in &job.layers {
         yard.begin = yard.world.states().len();
@@ -163,6 +168,8 @@ fn place_layers(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<Ar
         yard.replace_lost(layers, &mut report)?;
         members.push(yard.begin..yard.world.states().len());
     }
+    yard.settle(REST_SPEED, LAST_TIME)?;
+    yard.refine_substeps()?;
     yard.settle(REST_SPEED, LAST_TIME)?;
     let Yard { world, potential, .. } = yard;
     let energy = world.energy();
@@ -242,6 +249,16 @@ impl Yard<'_> {
         while self.world.time() - begun < ROW_TIME[0]
             || (fastest(&self.world, height) > slow && self.world.time() - begun < ROW_TIME[1])
         {
+            advance(&mut self.world)?;
+        }
+        Ok(())
+    }
+
+    /// Makes the substeps as short as in other runs, and waits until units that are then not at rest start to move.
+    fn refine_substeps(&mut self) -> Result<(), RigidError> {
+        self.world.set_steps_per_period(STEPS_PER_PERIOD);
+        let begun = self.world.time();
+        while self.world.time() - begun < ROW_TIME[0] {
             advance(&mut self.world)?;
         }
         Ok(())

@@ -102,6 +102,26 @@ fn five_hundred_tetrapods_cost_as_much_per_contact_as_fifteen() {
 }
 
 #[test]
+#[ignore = "an hour on one core: cargo test --release --test verification -- --ignored --nocapture rigid::pile::a_thousand"]
+fn a_thousand_tetrapods_come_to_rest() {
+    run_to_rest(1000, 16, 12, 20.0);
+}
+
+#[test]
+fn search_effort_per_unit_does_not_grow_with_the_number_of_units() {
+    let [small, large] = [(60, 4, 3), (240, 8, 6)].map(|(count, along, across)| {
+        let mut world = RigidWorld::new(lattice(count, along, across)).unwrap();
+        world.advance(0.2, &vec![Load::default(); count]).unwrap();
+        let effort = world.search_size().map(|number| number as f64 / count as f64);
+        println!("{count} units: part pairs and contact points per unit: {effort:.2?}");
+        effort
+    });
+    // Both piles have five layers. The smaller pile has fewer pairs per unit, because more of its units are at a wall.
+    // 25 % allows for this; the effort of a search among all units would be four times as large.
+    assert!((0..2).all(|k| large[k] < 1.25 * small[k]), "{large:?} {small:?}");
+}
+
+#[test]
 fn a_pile_has_the_same_bits_for_any_number_of_threads() {
     let states_with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
