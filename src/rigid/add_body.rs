@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
+use super::kinematics::Placements;
 use super::motion::{BodyState, Load};
-use super::search::Placements;
 use super::world::RigidWorld;
 
 impl RigidWorld {

@@ -1,11 +1,21 @@
 //! Motion of all bodies over a substep, and relative motion of two bodies at a contact point.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::contact::{ContactPoint, Feature, Substep};
 use super::motion::{BodyState, Load};
 use super::record::ContactStart;
-use super::search::Placements;
+
+/// Kind, rotation and position of every body.
+#[derive(Debug, Clone, Copy)]
+pub struct Placements<'a> {
+    /// Kinds, indices into `RigidSetup::kinds`.
+    pub kind: &'a [usize],
+    /// Rotations from body to world axes, unit quaternions.
+    pub rotation: &'a [DQuat],
+    /// Centres of mass [m].
+    pub position: &'a [DVec3],
+}
 
 /// Velocities of all bodies at one instant.
 #[derive(Debug, Clone, Copy)]

@@ -11,10 +11,10 @@ use glam::{DMat3, DQuat, DVec3};
 use super::contact::{Contact, LONGEST_SUBSTEP, Substep};
 use super::error::RigidError;
 use super::forces::{ContactResults, Energy, EvaluationMemory, Laws};
-use super::kinematics::{Motion, Velocities};
+use super::kinematics::{Motion, Placements, Velocities};
 use super::motion::{self, BodyState, Load};
 use super::record::{ContactEvent, ContactRecords, RecordedContact};
-use super::search::{ContactSearch, Placements, Surfaces};
+use super::search::{ContactSearch, Surfaces};
 use super::setup::{Body, BodyKind, BodyShape, RigidSetup, Sides};
 
 /// Number of substeps in the shortest oscillation period of a body on its contact springs [-]. With 80 substeps, the

@@ -21,4 +21,4 @@ mod surfaces;
 mod terrain_contact;
 
 pub use contact_search::ContactSearch;
-pub use surfaces::{Placements, Surfaces};
+pub use surfaces::Surfaces;

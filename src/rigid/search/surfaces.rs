@@ -17,18 +17,8 @@ use crate::geometry::convex::convex_part::ConvexPart;
 use crate::geometry::terrain::Terrain;
 use crate::rigid::contact::{Contact, ContactKey, ContactPoint, Feature, WHOLE_PART};
 use crate::rigid::error::RigidError;
+use crate::rigid::kinematics::Placements;
 use crate::rigid::setup::{BodyKind, RigidSetup, Sides};
-
-/// Kind, rotation and position of every body.
-#[derive(Debug, Clone, Copy)]
-pub struct Placements<'a> {
-    /// Kinds, indices into `RigidSetup::kinds`.
-    pub kind: &'a [usize],
-    /// Rotations from body to world axes, unit quaternions.
-    pub rotation: &'a [DQuat],
-    /// Centres of mass [m].
-    pub position: &'a [DVec3],
-}
 
 /// Surface of the bodies of one kind.
 #[derive(Debug, Clone)]
