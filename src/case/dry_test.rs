@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::breakage::{self, BreakageSettings};
 use super::file::{DryDomainFile, DryFile, DryOutputFile, DryTestFile, FlumeFile, Sides};
 use super::flume::ground::GroundMaterials;
+use super::flume::part::Part;
 use super::flume::structure::{self, Room};
 use super::flume::{bed, site::Site, terrain};
 use super::output::{files, stop, stop::Stop};
@@ -151,10 +152,11 @@ fn self_contained(
         kept.breakage = kept.breakage.as_ref().map(BreakageSettings::entry);
         read.extend(&settings.mesh_file);
     }
-    // Parts from STL files become polygons and boxes.
+    // Parts from STL files become polygons and boxes, or have copies of their files.
     let parts = file.structure.iter().zip(&site.parts);
     kept.structure =
         parts.map(|(file, part)| if file.stl.is_some() { part.entry(file) } else { file.clone() }).collect();
+    site.parts.iter().filter_map(Part::file).for_each(|(_, content)| read.extend(content));
     if let Some(terrain) = &site.terrain {
         kept.flume.terrain = Some(terrain.entry());
         read.extend(terrain.content.iter());

@@ -38,6 +38,7 @@ pub use file::{
     PlacedGroupFile, PlacementFile, PoseFile, RerunMethod, Sides, SolitaryTheory, Viscosity, WallSlip,
 };
 pub use flume::bed::{Flume, Mound};
+pub use flume::body::BodyPart;
 pub use flume::domain::{Domain, Start, Water};
 pub use flume::part::{Part, PartShape};
 pub use flume::regions::Region;

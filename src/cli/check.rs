@@ -164,7 +164,11 @@ fn print(case: &Case) {
     );
     if !case.flume.parts.is_empty() {
         let words = |part: &Part| {
-            let place = if matches!(part.shape, PartShape::Bed(_)) { " (part of the bed)" } else { "" };
+            let place = match part.shape {
+                PartShape::Bed(_) => " (part of the bed)",
+                PartShape::Body(_) => " (body)",
+                PartShape::Section(_) | PartShape::Box(_) => "",
+            };
             format!("{}{place}", part.name)
         };
         println!("  structure   {}", case.flume.parts.iter().map(words).collect::<Vec<_>>().join(", "));

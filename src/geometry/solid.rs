@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Pose;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
-use parry3d_f64::query::{PointQuery, intersection_test};
+use parry3d_f64::query::{PointQuery, Ray, RayCast, intersection_test};
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 use thiserror::Error;
 
@@ -156,6 +156,13 @@ impl Solid {
     /// Signed distance to the surface [m], negative inside.
     pub fn signed_distance(&self, point: DVec3) -> f64 {
         self.project(point).1
+    }
+
+    /// Distance [m] from a point along the unit vector `direction` to the first triangle within `reach` [m], and the
+    /// absolute cosine of the angle between this direction and the normal of the triangle [-].
+    pub fn ray(&self, from: DVec3, direction: DVec3, reach: f64) -> Option<(f64, f64)> {
+        let hit = self.mesh.cast_local_ray_and_get_normal(&Ray::new(from, direction), reach, false)?;
+        Some((hit.time_of_impact, hit.normal.dot(direction).abs()))
     }
 
     /// Returns the body moved by `shift` [m].

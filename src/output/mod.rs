@@ -47,8 +47,8 @@ pub use schedule::Schedule;
 pub use series::CsvSeries;
 pub use size::OutputSize;
 pub use summary::{
-    BreakageSummary, ContactSummary, EnergySummary, ParticleCounts, SectionSummary, Stopped, Summary, TimeStepSummary,
-    WaveSummary,
+    BodySummary, BreakageSummary, ContactSummary, EnergySummary, ParticleCounts, SectionSummary, Stopped, Summary,
+    TimeStepSummary, WaveSummary,
 };
 pub use table::Table;
 pub use unit_summary::{GroupSummary, UnitSummary};

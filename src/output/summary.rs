@@ -81,6 +81,9 @@ pub struct Summary {
     /// Parts of the structure that are the same across the flume and not part of the bed profile.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sections: Vec<SectionSummary>,
+    /// Parts of any shape, from STL files.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<BodySummary>,
     /// Number of time steps.
     pub steps: u64,
     /// Simulated time since the start of the particles [s].
@@ -166,6 +169,21 @@ pub struct SectionSummary {
     pub name: String,
     /// Corners [x, z] of the section [m].
     pub points_m: Vec<[f64; 2]>,
+}
+
+/// A part of any shape, from an STL file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BodySummary {
+    /// Name.
+    pub name: String,
+    /// STL file in the run folder.
+    pub file: String,
+    /// Metres per length unit of the file [-].
+    pub scale: f64,
+    /// Position of the origin of the file in the flume [m].
+    pub origin_m: [f64; 3],
+    /// Corners [x, z] of the body in side view [m].
+    pub side_view_m: Vec<[f64; 2]>,
 }
 
 /// Length of the time steps [s].

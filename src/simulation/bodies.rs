@@ -25,7 +25,7 @@ pub fn rigid_setup(
     let terrain = site.terrain.iter().map(|terrain| (terrain.surface.clone(), units.ground_material));
     let of_part = |part: &Part| {
         let material = part.material.unwrap_or(units.ground_material);
-        surfaces_of(part, site).into_iter().map(move |surface| (Arc::new(surface), material))
+        surfaces_of(part, site).into_iter().map(move |surface| (surface, material))
     };
     let surfaces = terrain.chain(site.parts.iter().flat_map(of_part));
     let kind = |(group, model): (&UnitGroup, &UnitModel)| BodyKind {
@@ -63,15 +63,25 @@ pub fn rigid_setup(
 
 /// Returns the surfaces of a part as units meet them; the ground has the parts of the bed. In a periodic flume, a part
 /// across the whole width continues beyond both sides, and other parts have an image on each side.
-fn surfaces_of(part: &Part, site: &Site) -> Vec<Terrain> {
+fn surfaces_of(part: &Part, site: &Site) -> Vec<Arc<Terrain>> {
     match &part.shape {
         PartShape::Bed(_) => Vec::new(),
         PartShape::Section(polygon) => {
             let [low, high] = polygon.bounds();
             let beyond = beyond(site, (high - low).max_element());
-            vec![extruded(polygon, [-beyond, site.width + beyond])]
+            vec![Arc::new(extruded(polygon, [-beyond, site.width + beyond]))]
         }
-        PartShape::Box(bounds) => images(bounds, site).iter().map(AxisBox::surface).map(terrain).collect(),
+        PartShape::Box(bounds) => {
+            images(bounds, site).iter().map(AxisBox::surface).map(terrain).map(Arc::new).collect()
+        }
+        PartShape::Body(body) if site.sides == Sides::Periodic => {
+            let image = |number: f64| {
+                let vertices = body.solid.vertices().iter().map(|v| *v + number * site.width * DVec3::Y).collect();
+                Arc::new(terrain((vertices, body.solid.triangles().to_vec())))
+            };
+            vec![image(-1.0), body.surface.clone(), image(1.0)]
+        }
+        PartShape::Body(body) => vec![body.surface.clone()],
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod absorption;
 mod blocks;
+mod bodies_on_bed;
 mod breakage;
 mod buoyancy;
 mod conservation;
@@ -31,6 +32,7 @@ mod solitary_wave;
 mod standing_wave;
 mod still_water;
 mod structure;
+mod structure_bodies;
 mod tanks;
 mod two_dimensional;
 mod two_dimensional_units;

@@ -21,7 +21,7 @@ pub struct PartFile {
     /// A box with edges along the axes.
     #[serde(rename = "box", default, skip_serializing_if = "Option::is_none")]
     pub cuboid: Option<BoxFile>,
-    /// A closed surface from an STL file: the same across the flume, or a box with edges along the axes.
+    /// A closed surface from an STL file, of any shape.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stl: Option<PartStlFile>,
     /// Material of the surface: a name in `materials`. By default, the material of the bed.

@@ -6,12 +6,13 @@
 //! | [`domain`] | the part of the flume that is filled with particles |
 //! | [`regions`] | regions of different particle spacing |
 //! | [`zones`] | damping zone and relaxation zone |
-//! | [`part`], [`structure`] | parts of a structure, and obstacles |
+//! | [`part`], [`body`], [`structure`] | parts of a structure, and obstacles |
 //! | [`ground`] | bed, structure and domain together |
 //! | [`terrain`] | triangulated terrain of dry tests |
 //! | [`site`] | ground and boundaries of the area in which units stand |
 
 pub mod bed;
+pub mod body;
 pub mod domain;
 pub mod ground;
 pub mod part;

@@ -2,7 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::case::file::{BoxFile, PartFile};
+use super::body::BodyPart;
+use crate::case::file::{BoxFile, PartFile, PartStlFile};
 use crate::geometry::axis_box::AxisBox;
 use crate::geometry::outline::polygon::Polygon;
 
@@ -26,6 +27,8 @@ pub enum PartShape {
     Section(Polygon),
     /// A box with edges along the axes.
     Box(AxisBox),
+    /// Any other shape, from an STL file.
+    Body(BodyPart),
 }
 
 impl Part {
@@ -33,7 +36,7 @@ impl Part {
     pub fn polygon(&self) -> Option<&Polygon> {
         match &self.shape {
             PartShape::Bed(polygon) | PartShape::Section(polygon) => Some(polygon),
-            PartShape::Box(_) => None,
+            PartShape::Box(_) | PartShape::Body(_) => None,
         }
     }
 
@@ -41,6 +44,14 @@ impl Part {
     pub fn as_box(&self) -> Option<&AxisBox> {
         match &self.shape {
             PartShape::Box(bounds) => Some(bounds),
+            _ => None,
+        }
+    }
+
+    /// Returns the body of a part of any other shape.
+    pub fn as_body(&self) -> Option<&BodyPart> {
+        match &self.shape {
+            PartShape::Body(body) => Some(body),
             _ => None,
         }
     }
@@ -58,6 +69,7 @@ impl Part {
         match &self.shape {
             PartShape::Bed(polygon) | PartShape::Section(polygon) => polygon.bounds().map(|corner| corner.x),
             PartShape::Box(bounds) => [bounds.low.x, bounds.high.x],
+            PartShape::Body(body) => body.solid.bounds().map(|corner| corner.x),
         }
     }
 
@@ -69,11 +81,18 @@ impl Part {
                 0.5 * DVec3::new(low.x + high.x, width, low.y + high.y)
             }
             PartShape::Box(bounds) => 0.5 * (bounds.low + bounds.high),
+            PartShape::Body(body) => {
+                let [low, high] = body.solid.bounds();
+                0.5 * (low + high)
+            }
         }
     }
 
     /// Returns the highest level of the part at (x, y) [m], if the part is there.
     pub fn level(&self, x: f64, y: f64) -> Option<f64> {
+        if let PartShape::Body(body) = &self.shape {
+            return body.surface.level(x, y);
+        }
         let is_there = self.as_box().is_none_or(|bounds| (bounds.low.y..=bounds.high.y).contains(&y));
         self.highest_at(x).filter(|_| is_there)
     }
@@ -83,6 +102,10 @@ impl Part {
         match &self.shape {
             PartShape::Bed(polygon) | PartShape::Section(polygon) => polygon.top(x),
             PartShape::Box(bounds) => (bounds.low.x..=bounds.high.x).contains(&x).then_some(bounds.high.z),
+            PartShape::Body(body) => {
+                let [low, high] = body.solid.bounds();
+                (low.x..=high.x).contains(&x).then_some(high.z)
+            }
         }
     }
 
@@ -92,13 +115,25 @@ impl Part {
             PartShape::Bed(_) => f64::INFINITY,
             PartShape::Section(polygon) => polygon.distance(DVec2::new(point.x, point.z)),
             PartShape::Box(bounds) => bounds.locate(point).1,
+            PartShape::Body(body) => body.solid.signed_distance(point),
         }
     }
 
-    /// Returns the entry for the case file in the run folder, which refers to no other file.
+    /// Returns name and content of the STL file that a run saves next to its case file, if the part needs one.
+    pub fn file(&self) -> Option<(&str, &[u8])> {
+        self.as_body().map(|body| (body.file_name.as_str(), body.content.as_slice()))
+    }
+
+    /// Returns the entry for the case file in the run folder, which refers only to files in that folder.
     pub(in crate::case) fn entry(&self, file: &PartFile) -> PartFile {
         let polygon_m = self.polygon().map(|polygon| polygon.points().iter().map(DVec2::to_array).collect());
         let cuboid = self.as_box().map(|bounds| BoxFile { low_m: bounds.low.into(), high_m: bounds.high.into() });
-        PartFile { polygon_m, cuboid, stl: None, ..file.clone() }
+        // A body refers to the copy of its file in the run folder.
+        let stl = self.as_body().map(|body| PartStlFile {
+            path: body.file_name.clone(),
+            scale: body.scale,
+            origin_m: body.origin.to_array(),
+        });
+        PartFile { polygon_m, cuboid, stl, ..file.clone() }
     }
 }

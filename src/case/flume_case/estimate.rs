@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::Case;
 use super::numerics::Numerics;
 use crate::case::file::{Sides, Viscosity, WallSlip};
+use crate::case::flume::body::BodyPart;
 use crate::case::flume::domain::Water;
 use crate::case::flume::part::Part;
 use crate::case::flume::regions::Region;
@@ -122,6 +123,11 @@ impl Case {
             obstacle.volume() - core.element_product()
         };
         solid += self.flume.parts.iter().filter_map(Part::as_box).map(shell).sum::<f64>();
+        let of_body = |body: &BodyPart| {
+            let area: f64 = body.triangles().map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
+            body.solid.volume_properties().volume.min(area * thickness)
+        };
+        solid += self.flume.parts.iter().filter_map(Part::as_body).map(of_body).sum::<f64>();
         let of_section = |polygon: &Polygon| {
             let around: f64 = polygon.edges().map(|[a, b]| a.distance(b)).sum();
             polygon.area().min(around * thickness) * domain.width

@@ -3,6 +3,7 @@
 use crate::case::breakage::BreakageSettings;
 use crate::case::file::{CaseFile, ExternalWaveFile, StopFile, VelxFile, WaveFile, WaveSourceFile};
 use crate::case::flume::bed::Flume;
+use crate::case::flume::part::Part;
 use crate::case::reference::Reference;
 use crate::case::units::Units;
 use crate::case::wave::Wave;
@@ -24,10 +25,11 @@ pub(super) fn self_contained(
         kept.wave = WaveFile::File(ExternalWaveFile { source, celerity_m_s: wave.celerity });
         read = wave.rows_text();
     }
-    // Parts from STL files become polygons and boxes.
+    // Parts from STL files become polygons and boxes, or have copies of their files.
     let parts = file.structure.iter().zip(&flume.parts);
     kept.structure =
         parts.map(|(file, part)| if file.stl.is_some() { part.entry(file) } else { file.clone() }).collect();
+    flume.parts.iter().filter_map(Part::file).for_each(|(_, content)| read.extend(content));
     kept.reference = kept.reference.as_ref().map(|_| Reference::FOLDER.to_owned());
     if let (Some(file), Some(units)) = (&mut kept.units, units) {
         units.make_self_contained(file, &mut read);

@@ -233,6 +233,7 @@ fn validate_point(path: &str, [x, y, z]: [f64; 3], flume: &Flume, domain: &Domai
         PartShape::Bed(_) => false,
         PartShape::Section(polygon) => polygon.distance(DVec2::new(x, z)) < -FLUSH * domain.dp,
         PartShape::Box(bounds) => bounds.contains(DVec3::new(x, y, z)),
+        PartShape::Body(body) => body.solid.signed_distance(DVec3::new(x, y, z)) < -FLUSH * domain.dp,
     };
     if let Some(part) = flume.parts.iter().find(is_in) {
         check.reject(

@@ -63,7 +63,7 @@ pub(super) fn cut(faces: &mut Vec<(HalfSpace, Vec<DVec3>)>, plane: &HalfSpace, t
 }
 
 /// Parts of a convex polygon behind and in front of a plane; points within the tolerance [m] belong to both parts.
-pub(super) fn split(ring: &[DVec3], plane: &HalfSpace, tolerance: f64) -> [Vec<DVec3>; 2] {
+pub(in crate::geometry) fn split(ring: &[DVec3], plane: &HalfSpace, tolerance: f64) -> [Vec<DVec3>; 2] {
     let (mut behind, mut in_front) = (Vec::new(), Vec::new());
     for (index, &a) in ring.iter().enumerate() {
         let b = ring[(index + 1) % ring.len()];

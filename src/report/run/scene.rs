@@ -5,7 +5,7 @@ use super::folder::RunFolder;
 use super::motion::Pose;
 use super::solids::{ViewDirection, coarsened, reach, shaded, silhouette};
 use super::window::{Window, label, path_point};
-use crate::output::{SectionSummary, UnitSurface};
+use crate::output::UnitSurface;
 
 /// Distance beyond the edge of the window at which outlines are no longer visible [px].
 const OUTSIDE: f64 = 5.0;
@@ -57,16 +57,18 @@ impl<'a> ImpactScene<'a> {
             let ([left, bottom], [right, top]) = (self.window.at(x0, up0), self.window.at(x1, up1));
             format!("<path class=\"bed\" d=\"M{left:.1} {bottom:.1}V{top:.1}H{right:.1}V{bottom:.1}Z\"/>\n")
         };
-        let section = |section: &SectionSummary| {
+        let section = |points: &[[f64; 2]]| {
             let corner = |[x, z]: &[f64; 2]| {
                 let [x, up, _] = self.eye.project([*x, 0.0, *z]);
                 path_point(self.window.at(x, up))
             };
-            let corners: Vec<String> = section.points_m.iter().map(corner).collect();
+            let corners: Vec<String> = points.iter().map(corner).collect();
             format!("<path class=\"bed\" d=\"M{}Z\"/>\n", corners.join("L"))
         };
-        let sections = self.run.summary.sections.iter().map(section);
-        self.run.summary.obstacles_m.iter().map(rectangle).chain(sections).collect()
+        let summary = &self.run.summary;
+        let sections = summary.sections.iter().map(|part| section(&part.points_m));
+        let bodies = summary.bodies.iter().map(|body| section(&body.side_view_m));
+        summary.obstacles_m.iter().map(rectangle).chain(sections).chain(bodies).collect()
     }
 
     /// Draws the still water as an area from the still water level down to the lower edge of the window.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{DryTest, Measured};
 use crate::{
-    case::{BreakageSettings, CaseIdentity, SiteTerrain, group},
+    case::{BreakageSettings, CaseIdentity, Part, SiteTerrain, group},
     output::{
         Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, Schedule, UnitSurface, checksum::checksum,
         columns, state_file::DAMAGED, write_atomically,
@@ -83,6 +83,9 @@ impl DryTestRecorder {
         let case = &run.case;
         write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
         for (name, content) in case.units.files() {
+            write_atomically(&dir.join(name), content)?;
+        }
+        for (name, content) in case.site.parts.iter().filter_map(Part::file) {
             write_atomically(&dir.join(name), content)?;
         }
         if let Some(settings) = &case.breakage {

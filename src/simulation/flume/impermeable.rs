@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::{Simulation, Units, wave::ends::MovingEnd};
 use crate::{
-    case::{Case, Part, Sides, UnitGroup, UnitModel},
+    case::{BodyPart, Case, Part, Sides, UnitGroup, UnitModel},
     geometry::{axis_box::AxisBox, convex::convex_part::ConvexPart, outline::Outline},
     rigid::{BodyState, Load},
     sph::{
@@ -99,7 +99,10 @@ fn surfaces(
     Surfaces {
         min_distance: nearest,
         outline: outline.segments().iter().map(|[a, b]| [a.x, a.y, b.x, b.y]).collect(),
-        obstacles: obstacles(case).map(|obstacle| [obstacle.low, obstacle.high]).collect(),
+        obstacles: obstacles(case)
+            .map(|obstacle| [obstacle.low, obstacle.high])
+            .chain(bodies(case).map(|body| body.solid.bounds()))
+            .collect(),
         bounding_spheres: bounding_spheres.collect(),
         wavemaker: ends.first().zip(rows.first()).map(|(end, rows)| {
             (end.wavemaker.rest_x_m(), end.wavemaker.row_heights_m()[0], rows.iter().map(|row| row[0]).collect())
@@ -111,6 +114,11 @@ fn surfaces(
 /// Returns the boxes in the water.
 fn obstacles(case: &Case) -> impl Iterator<Item = &AxisBox> {
     case.flume.parts.iter().filter_map(Part::as_box)
+}
+
+/// Returns the parts of any shape.
+fn bodies(case: &Case) -> impl Iterator<Item = &BodyPart> {
+    case.flume.parts.iter().filter_map(Part::as_body)
 }
 
 /// Returns `velocity` without its component opposite to the unit vector `normal`, if it has such a component.
@@ -139,6 +147,7 @@ pub(super) fn bins_near_surfaces(case: &Case, outline: &Outline, grid: &Grid) ->
             || outline.normal_within(DVec2::new(centre.x, centre.z), reach).is_some()
             || (has_side_walls && centre.y.min(case.domain.width - centre.y) < reach)
             || obstacles(case).any(|obstacle| obstacle.nearest(centre).distance(centre) < reach)
+            || bodies(case).any(|body| body.locate_within(centre, reach).1 < reach)
     };
     (0..grid.bins()).into_par_iter().map(is_near).collect()
 }
@@ -189,6 +198,12 @@ fn keep_out_of_fixed_solids(
                         meet(normal, distance);
                     }
                 }
+                for body in bodies(case) {
+                    let located = body.locate_within(*position, reach);
+                    if let Some((normal, distance)) = outwards(*position, located).filter(|near| near.1 < reach) {
+                        meet(normal, distance);
+                    }
+                }
             }
             taken
         })
@@ -212,7 +227,12 @@ fn near_obstacle(obstacle: &AxisBox, position: DVec3, reach: f64) -> Option<(DVe
     if (position - obstacle.nearest(position)).length_squared() >= reach * reach {
         return None;
     }
-    let (surface, distance) = obstacle.locate(position);
+    outwards(position, obstacle.locate(position))
+}
+
+/// Returns the outward normal of a solid at `position` and the distance from it [m], negative inside, for the nearest
+/// point of its surface and this distance.
+fn outwards(position: DVec3, (surface, distance): (DVec3, f64)) -> Option<(DVec3, f64)> {
     let normal = (if distance > 0.0 { position - surface } else { surface - position }).try_normalize()?;
     Some((normal, distance))
 }

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`setup`], [`scheme`] | set-up of the simulation, and SPH parameters, from a case |
 //! | [`unit_setup`] | the same for the units and the water beside them |
+//! | `standing` | surface vectors at fixed units that stand on the bed |
 //! | [`step`] | one time step, in the order of the algorithm |
 //! | [`run`] | the run of a case: outputs, checkpoints, rest criterion |
 //! | [`branch`] | runs that begin at the checkpoint of another run |
@@ -27,6 +28,7 @@ pub mod regions;
 pub mod run;
 pub mod scheme;
 pub mod setup;
+mod standing;
 pub mod step;
 pub mod unit_setup;
 pub mod wave;

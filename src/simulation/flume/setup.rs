@@ -11,6 +11,7 @@ use super::{
     measures::{part_faces::part_faces, statistics::Statistics},
     regions::buffer::Buffer,
     scheme::{parameters, tait},
+    standing::{add_body, cover_standing_units},
     unit_setup::{clear_units, set_up_units, unit_in_place},
     wave::{
         ends::MovingEnd,
@@ -155,10 +156,15 @@ impl Simulation {
         let groups = units.as_ref().map_or(&[][..], |units| &units.groups);
         let unit_particles: Vec<_> =
             group::models(groups).map(|(_, model)| unit_in_place(model.shape.unit(), &case)).collect();
+        let mut fixed = fixed_particles(&case, &outline, &across, reach);
+        let particles_of_each = match &units {
+            Some(units) => cover_standing_units(&mut fixed, &unit_particles, units, &case),
+            None => Vec::new(),
+        };
         let boundary = Boundary::new(
-            &fixed_particles(&case, &outline, &across, reach),
+            &fixed,
             &ends.iter().map(|end| end_particles(&case, &across, end)).collect::<Vec<_>>(),
-            &group::model_of_each(groups).map(|model| &unit_particles[model][..]).collect::<Vec<_>>(),
+            &particles_of_each.iter().map(|particles| &particles[..]).collect::<Vec<_>>(),
             case.fluid.rho0,
         );
         let mut water = fill(&case, &across, flume.as_deref(), start);
@@ -287,6 +293,7 @@ fn clear_part(water: &mut Water, part: &Part, outline: &Outline, dp: f64) {
     match &part.shape {
         PartShape::Bed(_) => (),
         PartShape::Box(bounds) => clear_solid(water, dp, |point| bounds.locate(point)),
+        PartShape::Body(body) => clear_solid(water, dp, |point| body.locate_within(point, dp)),
         PartShape::Section(polygon) => {
             let [low, high] = polygon.bounds();
             clear_solid(water, dp, |point| {
@@ -328,6 +335,9 @@ fn fixed_particles(case: &Case, outline: &Outline, across: &Across, reach: [Opti
         let solid = box_particles(obstacle, domain.dp, thickness).into_iter();
         // On a slope, a corner of the obstacle can be below the bed, where the bed already has particles.
         particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x)));
+    }
+    for body in case.flume.parts.iter().filter_map(Part::as_body) {
+        add_body(&mut particles, body, case);
     }
     particles
 }

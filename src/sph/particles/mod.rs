@@ -4,6 +4,7 @@ pub mod bed;
 pub mod boundary;
 pub mod fill;
 pub mod obstacle;
+pub mod standing;
 pub mod sums;
 pub mod unit;
 pub mod water;

@@ -12,12 +12,16 @@ pub const MIN_DEPTH: f64 = 0.35;
 /// Number of lattice offsets that [`unit_particles`] tries along each axis.
 const OFFSETS: u32 = 4;
 
+/// Number of particles of a solid above which [`unit_particles`] tries one lattice only: the count of so many particles
+/// depends little on the offset.
+const MANY: f64 = 1e5;
+
 /// Returns boundary particles that fill a solid on a cubic lattice with spacing `dp` [m], in the axes of the solid.
 ///
 /// `locate` returns the surface point nearest to a given point and the distance between them [m], negative inside the
-/// solid. `low` and `high` are the corners of a box around the solid [m]. The function tries 64 lattice offsets
-/// and uses the offset whose particle count is nearest to `volume` / dp^3. Each particle has an equal share of `volume`
-/// [m3].
+/// solid. `low` and `high` are the corners of a box around the solid [m]. The function tries 64 lattice offsets, for a
+/// large solid only one, and uses the offset whose particle count is nearest to `volume` / dp^3. Each particle has an
+/// equal share of `volume` [m3].
 pub fn unit_particles(
     locate: impl Fn(DVec3) -> (DVec3, f64),
     low: DVec3,
@@ -26,7 +30,8 @@ pub fn unit_particles(
     dp: f64,
 ) -> Vec<BoundaryParticle> {
     let wanted = volume / dp.powi(3);
-    let origins = (0..OFFSETS.pow(3)).map(|n| {
+    let tries = if wanted > MANY { 1 } else { OFFSETS.pow(3) };
+    let origins = (0..tries).map(|n| {
         let offset = |divisor: u32| f64::from(n / divisor % OFFSETS) / f64::from(OFFSETS);
         low + dp * (DVec3::new(offset(1), offset(OFFSETS), offset(OFFSETS * OFFSETS)) - 1.0)
     });

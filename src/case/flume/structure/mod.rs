@@ -5,7 +5,9 @@
 //! | `read` | reads a part: polygon, box, or STL surface |
 //! | `sections` | checks parts that are the same across the flume |
 //! | `boxes` | checks boxes |
+//! | `bodies` | checks parts of any shape |
 
+mod bodies;
 mod boxes;
 mod read;
 mod sections;
@@ -152,5 +154,6 @@ pub fn validate(
         material: None,
     };
     placed.extend(found.enumerate().map(obstacle));
+    bodies::check(&placed, flume, width, room, check);
     (check.count() == before).then_some(placed)
 }

@@ -2,22 +2,27 @@
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use super::Room;
 use crate::case::file::{PartFile, PartStlFile};
+use crate::case::flume::body::BodyPart;
 use crate::case::flume::part::{Part, PartShape};
-use crate::case::reading::check::{Checker, as_text, more_than};
+use crate::case::reading::check::{Checker, more_than};
 use crate::geometry::axis_box::AxisBox;
 use crate::geometry::outline::polygon::Polygon;
 use crate::geometry::solid::Solid;
 use crate::geometry::stl;
+use crate::geometry::terrain::Terrain;
 
 /// Largest number of parts in one case.
 const MOST_PARTS: usize = 1000;
 /// Largest number of corners of a polygon.
 const MOST_CORNERS: usize = 10_000;
+/// Largest number of triangles of a part that is neither a section nor a box.
+const MOST_TRIANGLES: usize = 200_000;
 /// Coordinates that differ by less than this are equal, divided by the largest coordinate [-]. A binary STL file stores
 /// coordinates with 24 bits, to 6e-8 of their value.
 const SAME: f64 = 1e-6;
@@ -41,17 +46,17 @@ pub(super) fn read(
             check.reject(&format!("{key}.name"), format!("{:?}", part.name), allowed, "rename the part");
         }
         let material = materials.get(index).copied().flatten();
-        let shape = check.in_section(&key, |check| read_shape(part, room, check));
+        let shape = check.in_section(&key, |check| read_shape(part, index, room, check));
         parts.push(shape.map(|shape| Part { name: part.name.clone(), shape, material }));
     }
     parts.into_iter().collect()
 }
 
-fn read_shape(part: &PartFile, room: &Room, check: &mut Checker) -> Option<PartShape> {
+fn read_shape(part: &PartFile, index: usize, room: &Room, check: &mut Checker) -> Option<PartShape> {
     match (&part.polygon_m, &part.cuboid, &part.stl) {
         (Some(points), None, None) => read_polygon(points, check).map(PartShape::Section),
         (None, Some(bounds), None) => Some(PartShape::Box(AxisBox::free(bounds.low_m.into(), bounds.high_m.into()))),
-        (None, None, Some(stl)) => read_stl(stl, room, check),
+        (None, None, Some(stl)) => read_stl(stl, index, room, check),
         (polygon, bounds, stl) => {
             let given =
                 [polygon.is_some(), bounds.is_some(), stl.is_some()].iter().filter(|is_given| **is_given).count();
@@ -84,7 +89,7 @@ fn read_polygon(points: &[[f64; 2]], check: &mut Checker) -> Option<Polygon> {
     }
 }
 
-fn read_stl(file: &PartStlFile, room: &Room, check: &mut Checker) -> Option<PartShape> {
+fn read_stl(file: &PartStlFile, index: usize, room: &Room, check: &mut Checker) -> Option<PartShape> {
     let advice = "1 for a file in metres, 0.001 for a file in millimetres";
     let mut is_valid = check.number(".stl.scale", file.scale, more_than(0.0).up_to(1000.0), "", advice);
     if let Some(axis) = file.origin_m.iter().position(|value| !value.is_finite()) {
@@ -127,19 +132,55 @@ fn read_stl(file: &PartStlFile, room: &Room, check: &mut Checker) -> Option<Part
         return Some(PartShape::Box(AxisBox::free(low, high)));
     }
     let section = as_section(&solid, origin, slack, room);
-    let Some(section) =
-        section.map(|points| points.into_iter().map(|[x, z]| [snapped(x, &room.x), z]).collect::<Vec<_>>())
-    else {
-        let [low, high] = solid.bounds().map(|corner| corner + origin);
-        let width = room.width.map_or_else(|| "the flume".to_owned(), |width| format!("y = 0 to {} m", as_text(width)));
-        let given = format!("{shown}, from y = {} to {} m", as_text(low.y), as_text(high.y));
-        let allowed = format!("a surface that is the same across {width}, or a box with edges along the axes");
-        let advice = "let the ends of the surface be plane, at y = 0 and at the width of the flume or beyond, with one \
-                      outline without holes; or write the part as several boxes";
-        check.reject(".stl.path", given, allowed, advice);
-        return None;
-    };
-    read_polygon(&section, check).map(PartShape::Section)
+    if let Some(points) = section {
+        let section: Vec<[f64; 2]> = points.into_iter().map(|[x, z]| [snapped(x, &room.x), z]).collect();
+        return read_polygon(&section, check).map(PartShape::Section);
+    }
+    match body(file, index, &solid, content, room) {
+        Ok(body) => Some(PartShape::Body(body)),
+        Err((allowed, advice)) => {
+            check.reject(".stl.path", shown, allowed, advice);
+            None
+        }
+    }
+}
+
+/// Returns the part of any shape with this surface, which is the `content` of its file. `index` is its place in the list
+/// of parts.
+///
+/// # Errors
+/// If no part can have this surface: what is allowed, and advice.
+fn body(
+    file: &PartStlFile,
+    index: usize,
+    solid: &Solid,
+    content: Vec<u8>,
+    room: &Room,
+) -> Result<BodyPart, (String, &'static str)> {
+    if room.width.is_none() {
+        let advice = "write a section, or use three dimensions";
+        return Err(("a surface that is the same across the flume, or a box, in two dimensions".to_owned(), advice));
+    }
+    if solid.triangles().len() > MOST_TRIANGLES {
+        return Err((format!("at most {MOST_TRIANGLES} triangles"), "make the mesh coarser"));
+    }
+    if let Some(point) = solid.self_intersection() {
+        let allowed = format!("a surface that does not intersect itself (it does near {point} m of the file)");
+        return Err((allowed, "join the bodies of the file to one body"));
+    }
+    let advice = "write one closed surface without holes";
+    let origin = DVec3::from_array(file.origin_m);
+    let solid = solid.translated(origin).map_err(|error| (format!("a closed surface ({error})"), advice))?;
+    let surface = Terrain::new(solid.vertices().to_vec(), solid.triangles().to_vec())
+        .map_err(|error| (format!("a surface of triangles with areas ({error})"), "repair the mesh"))?;
+    Ok(BodyPart {
+        solid: Arc::new(solid),
+        surface: Arc::new(surface),
+        content: Arc::new(content),
+        file_name: format!("part_{}.stl", index + 1),
+        scale: file.scale,
+        origin,
+    })
 }
 
 /// Returns a surface as a box with edges along the axes, if it is one.

@@ -1,7 +1,10 @@
 //! Bed, mound, obstacles and structure of the film.
 
+use glam::DVec3;
+
 use super::super::folder::RunFolder;
 use super::super::scene::bed_in;
+use crate::geometry::stl;
 use crate::report::film::{Mesh, Series};
 
 /// Thickness of the bed below its lowest point, divided by the width of the domain [-].
@@ -36,6 +39,14 @@ pub fn structure(run: &RunFolder) -> Option<Series> {
     }
     for section in &run.summary.sections {
         add_section(&section.points_m, run.summary.domain_width_m, &mut mesh);
+    }
+    for body in &run.summary.bodies {
+        // A film without the body is better than no film.
+        let Ok(solid) = stl::read(&run.dir.join(&body.file), body.scale) else { continue };
+        let first = mesh.points.len() as u32;
+        let origin = DVec3::from_array(body.origin_m);
+        mesh.points.extend(solid.vertices().iter().map(|vertex| (*vertex + origin).as_vec3().to_array()));
+        mesh.triangles.extend(solid.triangles().iter().map(|triangle| triangle.map(|corner| first + corner)));
     }
     (!mesh.points.is_empty()).then(|| Series::new("Structure", "#8d8370", 0.45, vec![mesh]))
 }

@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use crate::{
-    case::{Case, Domain, Part, PartShape, Quantity},
+    case::{BodyPart, Case, Domain, Part, PartShape, Quantity},
     geometry::{axis_box::AxisBox, outline::Outline, outline::polygon::Polygon, outline::segments::left_normal},
     rigid::Load,
-    simulation::flume::Simulation,
+    simulation::flume::{Simulation, standing::space_around},
 };
 
 /// A point on a face that water can reach.
@@ -29,6 +29,7 @@ pub(in crate::simulation::flume) fn part_faces(case: &Case, outline: &Outline) -
         _ if !is_measured(index) => Vec::new(),
         PartShape::Bed(polygon) | PartShape::Section(polygon) => of_section(polygon, outline, case),
         PartShape::Box(bounds) => of_box(bounds, case),
+        PartShape::Body(body) => of_body(body, case),
     };
     case.flume.parts.iter().enumerate().map(faces).collect()
 }
@@ -71,6 +72,13 @@ fn of_box(bounds: &AxisBox, case: &Case) -> Vec<FacePoint> {
         }
     }
     points
+}
+
+fn of_body(body: &BodyPart, case: &Case) -> Vec<FacePoint> {
+    let [low, high] = body.solid.bounds();
+    let surface = space_around(case, [low.y, high.y]).part_of(body.triangles());
+    let samples = surface.iter().flat_map(|surface| surface.samples(case.domain.dp));
+    samples.map(|(at, area)| FacePoint { at, area }).collect()
 }
 
 impl Simulation {

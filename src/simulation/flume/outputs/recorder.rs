@@ -21,7 +21,7 @@ use super::{
 };
 use crate::simulation::flume::{Simulation, Units, measures::water_at_impacts::pressure_places, step::PreparedStep};
 use crate::{
-    case::{BreakageSettings, ROWS_FILE, Reference, Wave, group},
+    case::{BreakageSettings, Part, ROWS_FILE, Reference, Wave, group},
     output::{
         CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges,
     },
@@ -74,6 +74,9 @@ impl Recorder {
             for (name, content) in units.files() {
                 write_atomically(&dir.join(name), content)?;
             }
+        }
+        for (name, content) in case.flume.parts.iter().filter_map(Part::file) {
+            write_atomically(&dir.join(name), content)?;
         }
         if let Some(record) = &simulation.flume {
             write_flume_gauges(case, record, &dir.join("flume_gauges.csv"))?;

@@ -6,7 +6,7 @@ use crate::simulation::flume::Simulation;
 use crate::{
     case::{Case, Gauge, Part, Quantity, Sides, UnitGroup, UnitModel, Wave, Wavemaker},
     output::{
-        ContactSummary, EnergySummary, Execution, ForceSummary, GaugeSummary, GroupSummary, OutputError,
+        BodySummary, ContactSummary, EnergySummary, Execution, ForceSummary, GaugeSummary, GroupSummary, OutputError,
         ParticleCounts, PressureSummary, SectionSummary, Stopped, Summary, Table, TimeStepSummary, UnitSummary,
         WaveSummary, columns,
     },
@@ -55,6 +55,7 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
             .map(|o| [o.low, o.high].map(Into::into))
             .collect(),
         sections: case.flume.parts.iter().filter_map(section_of).collect(),
+        bodies: case.flume.parts.iter().filter_map(body_of).collect(),
         steps: simulation.steps,
         simulated_s: simulation.time,
         start_s: simulation.start,
@@ -111,6 +112,17 @@ fn wave(case: &Case) -> Option<WaveSummary> {
 fn section_of(part: &Part) -> Option<SectionSummary> {
     let points_m = part.section()?.points().iter().map(|point| point.to_array()).collect();
     Some(SectionSummary { name: part.name.clone(), points_m })
+}
+
+fn body_of(part: &Part) -> Option<BodySummary> {
+    let body = part.as_body()?;
+    Some(BodySummary {
+        name: part.name.clone(),
+        file: body.file_name.clone(),
+        scale: body.scale,
+        origin_m: body.origin.to_array(),
+        side_view_m: body.side_view(),
+    })
 }
 
 fn group_of(group: &UnitGroup) -> GroupSummary {
