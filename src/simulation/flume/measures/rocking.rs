@@ -24,19 +24,22 @@ pub struct Rocking {
     farthest: [f64; 4],
     /// Orientation farthest from `farthest` since then.
     aside: [f64; 4],
-    /// Angle of the swing before the last turning point [rad]; 0 before the first turning point.
+    /// Orientation at the turning point before the last.
+    before: [f64; 4],
+    /// Angle of the swing from there to the last turning point [rad]; 0 before the first turning point.
     swing_before: f64,
     /// Number of turning points.
     turns: u64,
-    /// Largest rocking angle [rad]: the smaller angle of two consecutive swings.
+    /// Largest rocking angle [rad]: the smaller angle of two consecutive swings. Of the present swing, only the way
+    /// back towards `before` counts, because the unit may roll away to another side.
     pub largest_angle: f64,
 }
 
 impl Rocking {
     /// Returns the state of a unit with this orientation at the start.
     pub fn new(start: DQuat) -> Self {
-        let start = start.to_array();
-        Self { last: start, farthest: start, aside: start, swing_before: 0.0, turns: 0, largest_angle: 0.0 }
+        let [last, farthest, aside, before] = [start.to_array(); 4];
+        Self { last, farthest, aside, before, swing_before: 0.0, turns: 0, largest_angle: 0.0 }
     }
 
     /// Returns the number of rocking movements, of two swings each. The swing after the last turning point counts too:
@@ -58,26 +61,27 @@ impl Rocking {
             let (aside_by, back_by) = (farthest.angle_between(aside), farthest.angle_between(now));
             if swing - distance > limit {
                 let next = if back_by > aside_by { now.to_array() } else { self.aside };
-                self.turn(self.farthest, swing, next, now);
+                self.turn([self.last, self.farthest], swing, next, now);
             } else if back_by > aside_by {
                 self.aside = now.to_array();
             } else if aside_by - back_by > limit {
                 // The unit has moved to another place, and rocks there about another axis. It comes back to `farthest`,
                 // but not towards `last`.
-                self.turn(self.aside, aside_by, now.to_array(), now);
+                self.turn([self.farthest, self.aside], aside_by, now.to_array(), now);
             }
         }
         if self.turns > 0 {
-            let swing = DQuat::from_array(self.last).angle_between(DQuat::from_array(self.farthest));
-            self.largest_angle = self.largest_angle.max(swing.min(self.swing_before));
+            let back_by = self.swing_before - DQuat::from_array(self.before).angle_between(now);
+            self.largest_angle = self.largest_angle.max(back_by);
         }
     }
 
-    /// Counts a turning point after a swing of the angle `swing` [rad]. `farthest` is the orientation farthest from it
-    /// since then.
-    fn turn(&mut self, at: [f64; 4], swing: f64, farthest: [f64; 4], now: DQuat) {
+    /// Counts a turning point, the end of a swing of the angle `swing` [rad] between two orientations. `farthest` is
+    /// the orientation farthest from it since then.
+    fn turn(&mut self, [from, at]: [[f64; 4]; 2], swing: f64, farthest: [f64; 4], now: DQuat) {
         self.turns += 1;
-        (self.last, self.farthest, self.aside) = (at, farthest, now.to_array());
+        self.largest_angle = self.largest_angle.max(swing.min(self.swing_before));
+        (self.before, self.last, self.farthest, self.aside) = (from, at, farthest, now.to_array());
         self.swing_before = swing;
     }
 }
@@ -134,6 +138,10 @@ mod tests {
         }
         // It comes back by 4 of 10 degrees: this is the rocking angle.
         let (movements, angle) = counted(2.0, |t| about(once(t).max(6.0 * f64::from(t > 0.5)) * DVec3::Z));
+        assert!(movements == 1 && (angle - 4.0).abs() < 1e-5, "{movements} of {angle} degrees");
+        // Then it rolls by 60 degrees to another side, which changes nothing.
+        let rolls = |t: f64| about(60.0 * (t - 1.0).max(0.0) * DVec3::X);
+        let (movements, angle) = counted(2.0, |t| rolls(t) * about(once(t).max(6.0 * f64::from(t > 0.5)) * DVec3::Z));
         assert!(movements == 1 && (angle - 4.0).abs() < 1e-5, "{movements} of {angle} degrees");
     }
 
