@@ -89,18 +89,33 @@ impl ForceSummary {
         Ok(summary)
     }
 
-    /// Returns name, largest and smallest value, both with their times [s], of the three components of force [N] and
-    /// moment [N m]; for a force also the impulse [N s].
-    pub fn components(&self) -> impl Iterator<Item = (&'static str, [(f64, f64); 2], Option<f64>)> {
-        let row = |extremes: &Extremes, axis: usize| {
-            let [largest, smallest] = [extremes.largest[axis], extremes.smallest[axis]];
-            [(largest, extremes.largest_at_s[axis]), (smallest, extremes.smallest_at_s[axis])]
+    /// Returns the three components of the force, then those of the moment.
+    pub fn components(&self) -> impl Iterator<Item = ForceComponent> {
+        let component = |name, extremes: &Extremes, axis: usize, impulse_n_s| ForceComponent {
+            name,
+            largest: [extremes.largest[axis], extremes.largest_at_s[axis]],
+            smallest: [extremes.smallest[axis], extremes.smallest_at_s[axis]],
+            impulse_n_s,
         };
-        let forces = ["Fx [N]", "Fy [N]", "Fz [N]"].into_iter().enumerate();
-        let moments = ["Mx [N m]", "My [N m]", "Mz [N m]"].into_iter().enumerate();
-        let forces = forces.map(move |(axis, name)| (name, row(&self.force_n, axis), Some(self.impulse_n_s[axis])));
-        forces.chain(moments.map(move |(axis, name)| (name, row(&self.moment_n_m, axis), None)))
+        let force = ["Fx [N]", "Fy [N]", "Fz [N]"].into_iter().enumerate();
+        let moment = ["Mx [N m]", "My [N m]", "Mz [N m]"].into_iter().enumerate();
+        force
+            .map(move |(axis, name)| component(name, &self.force_n, axis, Some(self.impulse_n_s[axis])))
+            .chain(moment.map(move |(axis, name)| component(name, &self.moment_n_m, axis, None)))
     }
+}
+
+/// A component of force [N] or moment [N m], as a row of a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ForceComponent {
+    /// Name with its unit.
+    pub name: &'static str,
+    /// Largest value and its time [s].
+    pub largest: [f64; 2],
+    /// Smallest value and its time [s].
+    pub smallest: [f64; 2],
+    /// Impulse of a component of the force [N s].
+    pub impulse_n_s: Option<f64>,
 }
 
 #[cfg(test)]
@@ -136,6 +151,9 @@ mod tests {
         };
         assert_eq!(summary, wanted);
         assert!(ForceSummary::from_table("toe", [0.0; 3], &table).unwrap_err().to_string().contains("toe_fx_n"));
-        assert_eq!(summary.components().last(), Some(("Mz [N m]", [(-1.0, 2.0), (-4.0, 2.75)], None)));
+        let (largest, smallest) = ([-1.0, 2.0], [-4.0, 2.75]);
+        let last = ForceComponent { name: "Mz [N m]", largest, smallest, impulse_n_s: None };
+        assert_eq!(summary.components().last(), Some(last));
+        assert_eq!(summary.components().nth(2).and_then(|up| up.impulse_n_s), Some(-1.25));
     }
 }

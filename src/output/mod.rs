@@ -41,7 +41,7 @@ pub use atomic::write_atomically;
 pub use error::OutputError;
 pub use execution::Execution;
 pub use flume_tables::{write_flume_gauges, write_flume_piston};
-pub use gauge_summary::{Extremes, ForceSummary, GaugeSummary, PressureSummary};
+pub use gauge_summary::{Extremes, ForceComponent, ForceSummary, GaugeSummary, PressureSummary};
 pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePoint};
 pub use schedule::Schedule;
 pub use series::CsvSeries;

@@ -106,11 +106,10 @@ fn tell(summary: &Summary, report: &Path, dir: &Path) {
     }
     for gauge in summary.force_gauges.iter().take(MOST_LINES) {
         println!("  force gauge {}", gauge.name);
-        for (component, [(largest, at), (smallest, then)], impulse) in gauge.components() {
-            let impulse = impulse.map_or(String::new(), |impulse| format!(", impulse {impulse:.4} N s"));
-            println!(
-                "    {component}: largest {largest:.4} at {at:.3} s, smallest {smallest:.4} at {then:.3} s{impulse}"
-            );
+        for component in gauge.components() {
+            let ([largest, at], [smallest, then], name) = (component.largest, component.smallest, component.name);
+            let impulse = component.impulse_n_s.map_or(String::new(), |impulse| format!(", impulse {impulse:.4} N s"));
+            println!("    {name}: largest {largest:.4} at {at:.3} s, smallest {smallest:.4} at {then:.3} s{impulse}");
         }
     }
     if summary.force_gauges.len() > MOST_LINES {

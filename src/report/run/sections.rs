@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     case::DamageMeasure,
-    output::{ForceSummary, GroupSummary, Stopped, Summary, UnitSummary, WaveSummary},
+    output::{ForceComponent, ForceSummary, GroupSummary, Stopped, Summary, UnitSummary, WaveSummary},
     report::{
         film::Scene,
         page::{grouped, section},
@@ -300,17 +300,19 @@ fn force_table(summary: &Summary) -> String {
         return String::new();
     }
     let rows_of = |gauge: &ForceSummary| -> String {
-        let components = gauge.components().enumerate();
-        let rows = components.map(|(index, (name, extremes, impulse))| {
+        let row = |(index, component): (usize, ForceComponent)| {
             let first = match index {
                 0 => format!("<td rowspan=\"6\">{}</td>", escape(&gauge.name)),
                 _ => String::new(),
             };
-            let values = extremes.map(|(value, time)| format!("<td>{value:.4}</td><td>{time:.3}</td>")).concat();
-            let impulse = impulse.map_or("\u{2013}".to_owned(), |impulse| format!("{impulse:.4}"));
-            format!("<tr>{first}<td>{name}</td>{values}<td>{impulse}</td></tr>\n").replace(">-", ">\u{2212}")
-        });
-        rows.collect()
+            let values = [component.largest, component.smallest]
+                .map(|[value, time]| format!("<td>{value:.4}</td><td>{time:.3}</td>"))
+                .concat();
+            let impulse = component.impulse_n_s.map_or("\u{2013}".to_owned(), |impulse| format!("{impulse:.4}"));
+            format!("<tr>{first}<td>{}</td>{values}<td>{impulse}</td></tr>\n", component.name)
+                .replace(">-", ">\u{2212}")
+        };
+        gauge.components().enumerate().map(row).collect()
     };
     let rows: String = summary.force_gauges.iter().map(rows_of).collect();
     format!(
