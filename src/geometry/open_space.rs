@@ -12,9 +12,9 @@ use super::profile::Profile;
 /// Cut triangles with a smaller area are left out, divided by the square of their longest edge [-].
 const LINE: f64 = 1e-9;
 
-/// Longest edge of the triangles around the samples of a surface, divided by their spacing [-]: two right triangles then
-/// have about the area of the square of the spacing.
-const LONGEST: f64 = 1.5;
+/// Longest edge of the triangles around the samples of a surface, divided by their spacing [-]: a right triangle then has
+/// the area of the square of the spacing.
+const LONGEST: f64 = 2.0;
 
 /// The space above the bed and between the walls.
 #[derive(Debug, Clone)]

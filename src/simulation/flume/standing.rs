@@ -19,12 +19,13 @@ use crate::{
 /// Gap between a body and the sides of a periodic flume below which the body crosses the flume, divided by dp [-].
 const ACROSS: f64 = 0.25;
 
-/// Returns the space that water can reach next to a body between two y [m].
-pub(super) fn space_around(case: &Case, y: [f64; 2]) -> OpenSpace {
+/// Returns the space that water can reach next to a body between two y [m]. The space ends `inset` dp in front of bed and
+/// walls.
+pub(super) fn space_around(case: &Case, y: [f64; 2], inset: f64) -> OpenSpace {
     let case::Domain { x, width, sides, dp, .. } = case.domain;
     let crosses = y[1] - y[0] > width - 2.0 * ACROSS * dp;
     let has_sides = sides != case::Sides::Periodic || crosses;
-    OpenSpace::new(&case.flume.profile, x, has_sides.then_some([0.0, width]), TOUCHING * dp)
+    OpenSpace::new(&case.flume.profile, x, has_sides.then_some([0.0, width]), inset * dp)
 }
 
 /// Adds the particles of a body to those of bed and walls, whose surface vectors it changes. Where bed or side walls have
@@ -32,7 +33,7 @@ pub(super) fn space_around(case: &Case, y: [f64; 2]) -> OpenSpace {
 pub(super) fn add_body(walls: &mut Vec<BoundaryParticle>, body: &BodyPart, case: &Case) {
     let case::Domain { dp, width, .. } = case.domain;
     let [low, high] = body.solid.bounds();
-    let space = space_around(case, [low.y, high.y]);
+    let space = space_around(case, [low.y, high.y], TOUCHING);
     let Some(surface) = space.part_of(body.triangles()) else { return };
     cover_below(walls, &surface, dp, |point| body.locate_within(point, dp).1);
     let volume = body.solid.volume_properties().volume;
@@ -87,7 +88,7 @@ fn cover_unit(
     if !stands(walls, case, distance) {
         return;
     }
-    let space = space_around(case, [low.y + dp, high.y - dp]);
+    let space = space_around(case, [low.y + dp, high.y - dp], TOUCHING);
     let triangles = solid.triangles().iter().map(|triangle| triangle.map(|corner| corners[corner as usize]));
     let Some(surface) = space.part_of(triangles) else { return };
     cover_below(walls, &surface, dp, distance);

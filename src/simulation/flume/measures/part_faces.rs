@@ -76,7 +76,7 @@ fn of_box(bounds: &AxisBox, case: &Case) -> Vec<FacePoint> {
 
 fn of_body(body: &BodyPart, case: &Case) -> Vec<FacePoint> {
     let [low, high] = body.solid.bounds();
-    let surface = space_around(case, [low.y, high.y]).part_of(body.triangles());
+    let surface = space_around(case, [low.y, high.y], IN_FRONT).part_of(body.triangles());
     let samples = surface.iter().flat_map(|surface| surface.samples(case.domain.dp));
     samples.map(|(at, area)| FacePoint { at, area }).collect()
 }
