@@ -220,6 +220,13 @@ fn print_units(units: &Units) {
 
 fn print_group(group: &UnitGroup) {
     let shape = group.shape();
+    if group.models.len() > 1 {
+        let (count, size) = (group.members.len(), group.nominal_diameter);
+        println!("  units       {count} (rock) of D_n50 = {size} m and M50 = {} kg", group.mass);
+        let density = group.mass / size.powi(3);
+        println!("  rocks       {} random shapes, {density:.0} kg/m3", group.models.len());
+        return;
+    }
     println!(
         "  units       {} ({}) of {} m and {} kg",
         group.members.len(),

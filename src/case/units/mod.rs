@@ -268,7 +268,7 @@ fn place(
         }
     }
     if let Some(water) = &around.water {
-        validate_water(water, shape, check);
+        validate_water(water, group?, check);
     }
     let placements = match (row, &file.centres_m) {
         (Some(row), _) => row::place(&row, shape, site, check),
@@ -331,8 +331,9 @@ fn validate_outside_parts(placements: &[UnitPose], group: &UnitGroup, site: &Sit
 }
 
 /// Warns of units that are small compared with the particle spacing.
-fn validate_water(water: &WaterAround, shape: &UnitShape, check: &mut Checker) {
-    if shape.height() < 8.0 * water.dp {
+fn validate_water(water: &WaterAround, group: &UnitGroup, check: &mut Checker) {
+    let height = if group.models.len() == 1 { group.height() } else { group.nominal_diameter };
+    if height < 8.0 * water.dp {
         let of_group = match check.path(".").as_str() {
             "units" => String::new(),
             group => format!(" of {group}"),
@@ -340,7 +341,7 @@ fn validate_water(water: &WaterAround, shape: &UnitShape, check: &mut Checker) {
         check.warn(format!(
             "domain.dp_m = {}: a unit{of_group} is {:.1} particles high; with fewer than 8, the water forces are inaccurate",
             as_text(water.dp),
-            shape.height() / water.dp
+            height / water.dp
         ));
     }
 }
