@@ -58,6 +58,12 @@ impl UnitGroup {
         self.models.iter().map(|model| model.shape.height()).fold(0.0, f64::max)
     }
 
+    /// Returns the largest distance of the surface of a unit from its centre of mass [m].
+    pub fn reach(&self) -> f64 {
+        let corners = self.models.iter().flat_map(|model| model.shape.unit().solid().vertices());
+        corners.map(|vertex| vertex.length()).fold(0.0, f64::max)
+    }
+
     /// Returns name and content of the STL files of the shape.
     pub(super) fn files(&self) -> &[(String, Vec<u8>)] {
         if let UnitKind::Stl(unit) = &self.shape().kind { unit.files() } else { &[] }

@@ -59,8 +59,7 @@ pub fn place(
 /// Refuses units of which so many are near another unit that they must overlap. The search for contacts would need hours
 /// and all memory for thousands of units at one position.
 fn refuse_crowd(placements: &[UnitPose], path: &str, group: &UnitGroup, check: &mut Checker) {
-    let corners = group.models.iter().flat_map(|model| model.shape.unit().solid().vertices());
-    let reach = corners.map(|vertex| vertex.length()).fold(0.0, f64::max);
+    let reach = group.reach();
     let least = group.models.iter().map(|model| model.shape.volume()).fold(f64::MAX, f64::min);
     // Units with their centres within two reaches of a centre are inside a sphere with a radius of three reaches.
     let most = (4.0 / 3.0 * PI * (3.0 * reach).powi(3) / least) as usize;
