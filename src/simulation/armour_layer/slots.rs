@@ -24,12 +24,11 @@ const FROM_WALL: f64 = 0.68;
 
 /// Returns the rows of all layers in the order of placement: layer by layer, and in each layer from the toe upwards.
 pub(super) fn rows(job: &LayerJob, layers: &Layers) -> Vec<Vec<Slot>> {
-    let (armour, group) = (&layers.armour, job.group(layers));
-    let unit = group.shape().unit();
+    let (armour, unit) = (&layers.armour, job.group(layers).shape().unit());
     let mut random = SplitMix64::new(armour.seed);
     let slope = job.slope(layers);
     let width = job.site.width;
-    let margin = if job.site.sides == Sides::Periodic { 0.0 } else { group.reach().max(FROM_WALL * group.height()) };
+    let margin = margin(job, layers);
     let free = (width - 2.0 * margin).max(0.0);
     let (all, count_of_layers) = (job.count(layers), armour.layers as usize);
     let length = length_of(&slope);
@@ -67,12 +66,17 @@ pub(super) fn rows(job: &LayerJob, layers: &Layers) -> Vec<Vec<Slot>> {
     rows
 }
 
+/// Returns the smallest distance of the centre of a unit from a side wall [m]; 0 without side walls.
+fn margin(job: &LayerJob, layers: &Layers) -> f64 {
+    let group = job.group(layers);
+    if job.site.sides == Sides::Periodic { 0.0 } else { group.reach().max(FROM_WALL * group.height()) }
+}
+
 /// Returns the place on the slope around which the fewest units are, with a random rotation. `units` lists the units of
 /// the layers.
 pub(super) fn thinnest(job: &LayerJob, layers: &Layers, units: &[BodyState], random: &mut SplitMix64) -> Slot {
-    let unit = job.group(layers).shape().unit();
     let (slope, width) = (job.slope(layers), job.site.width);
-    let margin = if job.site.sides == Sides::Periodic { 0.0 } else { group.reach().max(FROM_WALL * group.height()) };
+    let margin = margin(job, layers);
     let size = job.group(layers).nominal_diameter;
     let length = length_of(&slope);
     // Candidates half a nominal diameter apart, at random places within their cells.
