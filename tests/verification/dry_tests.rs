@@ -107,7 +107,7 @@ fn a_placed_layer_of_rocks_rests_and_can_be_run() {
     case["flume"]["bed_m"] = json!([[-1.0, 0.0], [2.0, 0.0]]);
     case["units"] = json!({ "name": "rock", "shape": "rock", "rock": { "d_n50_m": 0.03, "grading": 1.4, "seed": 2 },
         "mass_kg": 0.072, "material": "mortar",
-        "armour": { "x_m": [0.06, 0.24], "layers": 2, "packing_density": 1.2, "seed": 5 } });
+        "armour": { "x_m": [0.06, 0.2], "layers": 1, "packing_density": 0.6, "seed": 5 } });
     let job = LayerJob::from_str(&case.to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
     let placed = place(&job, |_, _| ()).unwrap();
     let rocks = &placed.groups[0];
