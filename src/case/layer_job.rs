@@ -143,6 +143,10 @@ fn validate_job(
             let unplaced = units::validate_unplaced(group, file, index, around, check);
             match &group.armour {
                 Some(armour) => {
+                    if group.rock.is_some() && armour.orientation == ArmourOrientation::Alternating {
+                        let advice = "rocks have no upright position: leave the key out";
+                        check.reject(".armour.orientation", "\"alternating\"", "\"random\" for rocks", advice);
+                    }
                     let armour = around.site.and_then(|site| validate(armour, site, check));
                     layers.extend(armour.map(|armour| Layers { group: index, armour }));
                     groups.extend(unplaced);
@@ -184,6 +188,12 @@ fn validate(file: &ArmourFile, site: &Site, check: &mut Checker) -> Option<Armou
     }
     let advice = "usual for two layers: Tetrapods 1.04, Dolosse 0.83, cubes 1.17";
     check.number(".armour.packing_density", file.packing_density, more_than(0.0).up_to(5.0), "", advice);
+    let is_below = |part: &&Part| part.as_body().is_some() && part.x()[0] < x1 && part.x()[1] > x0;
+    if let Some(part) = site.parts.iter().find(is_below) {
+        let allowed = format!("clear of {:?} along x", part.name);
+        let advice = "layers lie on the bed and on sections across the flume; write `poses` on other parts";
+        check.reject(".armour.x_m", format!("[{x0}, {x1}]"), allowed, advice);
+    }
     let ArmourFile { layers, packing_density, orientation, seed, .. } = *file;
     (check.count() == before).then_some(Armour { x: file.x_m, layers, packing_density, orientation, seed })
 }

@@ -1,5 +1,6 @@
 //! The validated gauges.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
@@ -115,9 +116,15 @@ pub fn validate(
         check.reject("gauges", file.len(), format!("at most {MOST_GAUGES} gauges"), "remove some gauges");
         return Vec::new();
     }
+    let count: u64 = file.iter().map(|gauge| u64::from(line_of(gauge).map_or(1, |line| line.count))).sum();
+    if count > MOST_GAUGES as u64 {
+        let allowed = format!("at most {MOST_GAUGES} gauges, with those of lines");
+        check.reject("gauges", count, allowed, "write shorter lines, or remove some gauges");
+        return Vec::new();
+    }
     validate_names(file, check);
     let (Some(flume), Some(domain)) = (flume, domain) else { return Vec::new() };
-    let mut gauges = Vec::new();
+    let mut gauges: Vec<Gauge> = Vec::new();
     for (index, gauge) in file.iter().enumerate() {
         let path = format!("gauges[{index}]");
         let (quantity, at, motion) = match gauge {
@@ -134,15 +141,6 @@ pub fn validate(
                 let count = units.map_or(0, Units::count);
                 let motion = validate_motion(&path, point, count, check);
                 for (name, at) in places {
-                    if gauges.iter().any(|other: &Gauge| other.name.eq_ignore_ascii_case(&name)) {
-                        let advice = "a line of gauges adds _1, _2, ... to its name: rename one of the two";
-                        check.reject(
-                            &format!("{path}.name"),
-                            format!("{name:?}"),
-                            "the name of one gauge only",
-                            advice,
-                        );
-                    }
                     let (quantity, motion) = (quantity.clone(), motion.clone());
                     gauges.push(Gauge { name, quantity, at, motion, in_domain: is_inside(at, domain) });
                 }
@@ -157,7 +155,19 @@ pub fn validate(
         let in_domain = is_force || is_inside(at, domain);
         gauges.push(Gauge { name: gauge_name(gauge).to_owned(), quantity, at, motion, in_domain });
     }
+    let mut names = HashSet::new();
+    if let Some(gauge) = gauges.iter().find(|gauge| !names.insert(gauge.name.to_ascii_lowercase())) {
+        let advice = "a line of gauges adds _1, _2, ... to its name: rename one of the two";
+        check.reject("gauges", format!("{:?}", gauge.name), "the name of one gauge only", advice);
+    }
     gauges
+}
+
+fn line_of(gauge: &GaugeFile) -> Option<LineFile> {
+    match gauge {
+        GaugeFile::Pressure(point) | GaugeFile::Velocity(point) => point.line,
+        GaugeFile::Elevation(_) | GaugeFile::Force(_) => None,
+    }
 }
 
 fn gauge_name(gauge: &GaugeFile) -> &str {

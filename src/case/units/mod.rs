@@ -332,7 +332,16 @@ fn validate_outside_parts(placements: &[UnitPose], group: &UnitGroup, site: &Sit
 
 /// Warns of units that are small compared with the particle spacing.
 fn validate_water(water: &WaterAround, group: &UnitGroup, check: &mut Checker) {
-    let height = if group.models.len() == 1 { group.height() } else { group.nominal_diameter };
+    let smallest = group.models.iter().map(|model| model.shape.nominal_diameter()).fold(f64::MAX, f64::min);
+    if group.models.len() > 1 && smallest < water.dp {
+        check.reject(
+            ".",
+            format!("rocks of D_n = {} m and larger", as_text(smallest)),
+            format!("at least `domain.dp_m` = {} m", as_text(water.dp)),
+            "so small a rock has hardly any particles: use a finer dp_m or larger rocks",
+        );
+    }
+    let height = if group.models.len() == 1 { group.height() } else { smallest };
     if height < 8.0 * water.dp {
         let of_group = match check.path(".").as_str() {
             "units" => String::new(),

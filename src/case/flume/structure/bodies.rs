@@ -15,6 +15,8 @@ use crate::geometry::open_space::{OpenSpace, OpenSurface};
 const FLUSH: f64 = 1e-3;
 /// Smallest spacing of the points at which a body is checked, divided by its size [-].
 const FINEST: f64 = 1.0 / 64.0;
+/// Rounding of the coordinates of a file, divided by the largest coordinate [-].
+const SINGLE: f64 = 1e-6;
 /// Smallest cosine of the angle between two opposite faces [-]. Faces at larger angles meet in an edge, which may be
 /// sharp.
 const OPPOSITE: f64 = 0.9;
@@ -56,7 +58,9 @@ fn extent(body: &BodyPart) -> String {
 fn check_extent(key: &str, part: &Part, body: &BodyPart, width: f64, room: &Room, check: &mut Checker) {
     let [low, high] = body.solid.bounds();
     let [from, to] = part.x();
-    if from < room.x[0] || to > room.x[1] {
+    // Coordinates of a binary STL file have 24 bits.
+    let slack = SINGLE * low.abs().max(high.abs()).max_element();
+    if from < room.x[0] - slack || to > room.x[1] + slack {
         let allowed = format!("within `domain.x_m`, {} to {} m", as_text(room.x[0]), as_text(room.x[1]));
         check.reject(
             key,
@@ -65,7 +69,7 @@ fn check_extent(key: &str, part: &Part, body: &BodyPart, width: f64, room: &Room
             "move the part with `origin_m`, correct `scale`, or lengthen the domain",
         );
     }
-    if high.z > room.top_z {
+    if high.z > room.top_z + slack {
         let allowed = format!("at most z = {} m, the top of the walls", as_text(room.top_z));
         check.reject(key, extent(body), allowed, "lower the part, correct `scale`, or raise `domain.top_z_m`");
     }
