@@ -71,6 +71,14 @@ fn small_layer() -> Value {
     case
 }
 
+/// Returns the largest displacement of a unit within the first 0.2 s [m].
+fn largest_displacement(case: &Value) -> f64 {
+    let mut run = DryTest::new(dry_case(case)).unwrap();
+    rayon::scope(|_| (0..200).for_each(|_| run.advance(1.0).unwrap()));
+    let moved = run.world.states().iter().zip(&run.start).map(|(now, start)| now.position.distance(start.position));
+    moved.fold(0.0, f64::max)
+}
+
 #[test]
 fn a_placed_layer_rests_and_can_be_run() {
     let job = LayerJob::from_str(&small_layer().to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
@@ -93,10 +101,7 @@ fn a_placed_layer_rests_and_can_be_run() {
     let mut case = small_layer();
     let file = placed.file("layer", 1);
     case["units"]["poses"] = serde_json::to_value(&file.poses).unwrap();
-    let mut run = DryTest::new(dry_case(&case)).unwrap();
-    rayon::scope(|_| (0..200).for_each(|_| run.advance(1.0).unwrap()));
-    let moved = run.world.states().iter().zip(&run.start).map(|(now, start)| now.position.distance(start.position));
-    let largest = moved.fold(0.0, f64::max);
+    let largest = largest_displacement(&case);
     println!("largest displacement within 0.2 s: {:.1e} H", largest / 0.077);
     assert!(largest < 5e-3 * 0.077, "{largest}");
 }
@@ -115,10 +120,7 @@ fn a_placed_layer_of_rocks_rests_and_can_be_run() {
     // Limits: as for the layer of Tetrapods.
     assert!(rocks.is_complete() && placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
     case["units"]["poses"] = serde_json::to_value(&placed.file("rocks", 1).poses).unwrap();
-    let mut run = DryTest::new(dry_case(&case)).unwrap();
-    rayon::scope(|_| (0..200).for_each(|_| run.advance(1.0).unwrap()));
-    let moved = run.world.states().iter().zip(&run.start).map(|(now, start)| now.position.distance(start.position));
-    let largest = moved.fold(0.0, f64::max);
+    let largest = largest_displacement(&case);
     println!("largest displacement within 0.2 s: {:.1e} D_n50", largest / 0.03);
     assert!(largest < 5e-3 * 0.03, "{largest}");
 }
