@@ -43,16 +43,43 @@ impl AxisBox {
         closed
     }
 
-    /// Corners, and triangles that are counter-clockwise seen from outside.
-    pub fn surface(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-        let corner = |number: u32| {
+    /// The box with its closed faces moved outwards [m].
+    pub fn beyond_closed_faces(&self, by: f64) -> Self {
+        let mut wider = *self;
+        for axis in 0..3 {
+            let [low, high] = self.open[axis];
+            wider.low[axis] -= if low { 0.0 } else { by };
+            wider.high[axis] += if high { 0.0 } else { by };
+        }
+        wider
+    }
+
+    /// Corners.
+    pub fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|number| {
             DVec3::from_array(std::array::from_fn(|axis| {
                 if number >> axis & 1 == 0 { self.low[axis] } else { self.high[axis] }
             }))
-        };
+        })
+    }
+
+    /// Corners, middles of the edges, and middle of the lower (`side` 0) or upper (1) face normal to an axis.
+    pub fn points_on_face(&self, axis: usize, side: usize) -> impl Iterator<Item = DVec3> {
+        let (low, edges) = (self.low, self.edges());
+        (0..9).map(move |number| {
+            let mut part = DVec3::ZERO;
+            part[axis] = side as f64;
+            part[(axis + 1) % 3] = 0.5 * f64::from(number % 3);
+            part[(axis + 2) % 3] = 0.5 * f64::from(number / 3);
+            low + part * edges
+        })
+    }
+
+    /// Corners, and triangles that are counter-clockwise seen from outside.
+    pub fn surface(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         // Corners of each face: -x, +x, -y, +y, -z, +z.
         let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-        ((0..8).map(corner).collect(), faces.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]).collect())
+        (self.corners().to_vec(), faces.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]).collect())
     }
 
     /// Edge lengths [m].
@@ -91,10 +118,15 @@ impl AxisBox {
     }
 
     /// Vector from an inner point to the nearest open face [m]. If two or three faces are equally near, the vector
-    /// leads to their common edge or corner.
+    /// leads to their common edge or corner; of two opposite faces, it leads to the lower one.
     pub fn vector_to_surface(&self, point: DVec3) -> DVec3 {
         let most = self.depth(point) + SAME * self.edges().max_element();
-        self.paths_to_open_faces(point).filter(|(depth, _)| *depth <= most).map(|(_, way)| way).sum()
+        let mut to_surface = DVec3::ZERO;
+        for (_, way) in self.paths_to_open_faces(point).filter(|(depth, _)| *depth <= most) {
+            // Otherwise, the ways to two opposite faces would cancel each other.
+            to_surface += DVec3::select(to_surface.cmpeq(DVec3::ZERO), way, DVec3::ZERO);
+        }
+        to_surface
     }
 
     /// Nearest point of the open surface [m] and signed distance to it [m], negative inside.
@@ -142,6 +174,8 @@ mod tests {
         assert!((way - DVec3::new(-0.1, 0.1, 0.0)).length() < 1e-12);
         let way = on_the_bed().vector_to_surface(DVec3::new(0.1, 1.9, 2.9));
         assert!((way - DVec3::new(-0.1, 0.1, 0.1)).length() < 1e-12);
+        let way = on_the_bed().vector_to_surface(DVec3::new(0.5, 1.0, 0.0));
+        assert!((way - DVec3::new(-0.5, 0.0, 0.0)).length() < 1e-12);
     }
 
     #[test]

@@ -322,6 +322,9 @@ pub fn validate_mass(mass: f64, volume: f64, rho0: Option<f64>, check: &mut Chec
     let advice = format!("a unit of this size has a volume of {volume:.3e} m3; concrete has 2300 to 2400 kg/m3");
     let sound = check.number(".mass_kg", mass, range, "kg", &advice);
     if sound && rho0.is_some_and(|rho0| mass < rho0 * volume) {
-        check.warn(format!(".mass_kg = {}: the units are lighter than water and will float", as_text(mass)));
+        check.warn(format!(
+            ".mass_kg = {}: the units are lighter than water; they float where it is deep enough",
+            as_text(mass)
+        ));
     }
 }

@@ -85,6 +85,7 @@ impl Simulation {
             region.solver = new.solver;
             region.water = new.water;
             region.boundary = new.boundary;
+            region.standing = new.standing;
             region.buffers = new.buffers;
             region.next_id = new.next_id;
             region.outline = new.outline;

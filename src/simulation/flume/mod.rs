@@ -4,7 +4,8 @@
 //! | --- | --- |
 //! | [`setup`], [`scheme`] | set-up of the simulation, and SPH parameters, from a case |
 //! | [`unit_setup`] | the same for the units and the water beside them |
-//! | `standing` | surface vectors at fixed units that stand on the bed |
+//! | `standing` | fixed bodies that stand on the bed: their surface vectors and those of the bed |
+//! | `standing_cuboids` | the same for cuboids that move |
 //! | [`step`] | one time step, in the order of the algorithm |
 //! | [`run`] | the run of a case: outputs, checkpoints, rest criterion |
 //! | [`branch`] | runs that begin at the checkpoint of another run |
@@ -29,6 +30,7 @@ pub mod run;
 pub mod scheme;
 pub mod setup;
 mod standing;
+mod standing_cuboids;
 pub mod step;
 pub mod unit_setup;
 pub mod wave;
@@ -53,6 +55,7 @@ use measures::{
     mean_loads::MeanLoads, part_faces::FacePoint, statistics::Statistics, water_at_impacts::WaterAtImpacts,
 };
 use regions::buffer::Buffer;
+use standing_cuboids::StandingCuboids;
 use wave::ends::{MovingEnd, move_ends};
 
 /// State of a flume run. If the case has coarser water far away, this is the state of the finest region, with all units;
@@ -74,6 +77,8 @@ pub struct Simulation {
     pub boundary: Boundary,
     /// The armour units; `None` if the case has no units.
     pub units: Option<Units>,
+    /// Cuboids that can move, and the walls on which they can stand.
+    standing: StandingCuboids,
     /// Time since the particles started [s].
     pub time: f64,
     /// Number of time steps since the particles started.
@@ -125,6 +130,7 @@ impl Simulation {
         let flume_time = self.flume_time();
         move_ends(&mut self.boundary, &self.ends, flume_time, 0.0);
         if let Some(units) = &self.units {
+            self.standing.place(&mut self.boundary, units.states(), &self.case, &self.outline);
             units.states().iter().enumerate().for_each(|(k, s)| self.boundary.move_unit(k, s));
         }
     }

@@ -12,6 +12,7 @@ use super::{
     regions::buffer::Buffer,
     scheme::{parameters, tait},
     standing::{add_body, cover_standing_units},
+    standing_cuboids::StandingCuboids,
     unit_setup::{clear_units, set_up_units, unit_in_place},
     wave::{
         ends::MovingEnd,
@@ -183,6 +184,7 @@ impl Simulation {
         let allowed = [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)];
         let next_id = number * IDS_PER_REGION + water.len() as u32;
         let solver = device.solver(parameters(&case), [low, high], allowed)?;
+        let standing = units.as_ref().map(|units| StandingCuboids::new(units, &boundary, &case)).unwrap_or_default();
         let mut simulation = Self {
             bins_near_surfaces: bins_near_surfaces(&case, &outline, solver.grid()),
             part_faces: Vec::new(),
@@ -195,6 +197,7 @@ impl Simulation {
             buffers,
             flume,
             water,
+            standing,
             boundary,
             units,
             time: 0.0,

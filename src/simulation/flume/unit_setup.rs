@@ -9,7 +9,7 @@ use super::{
 use crate::simulation::bodies::rigid_setup;
 use crate::{
     case::{self, Case, UnitGroup},
-    geometry::armour_unit::ArmourUnit,
+    geometry::{armour_unit::ArmourUnit, axis_box::AxisBox},
     rigid::{Load, RigidError, RigidWorld},
     sph::{
         particles::{
@@ -43,19 +43,27 @@ pub(super) fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, Ri
 /// With inviscid walls, units that are not cuboids have particles of half the spacing, because their legs are only a few
 /// spacings thick.
 pub(super) fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
-    let case::Domain { dp, width, sides, .. } = case.domain;
-    let mut particles = match (shape.as_box(), sides) {
-        (Some(bounds), case::Sides::TwoDimensional) => box_particles(&bounds.slice(width), dp, f64::INFINITY),
-        (Some(bounds), case::Sides::Periodic) if width - bounds.edges().y < NARROWEST_GAP * dp => {
-            box_particles(&bounds.with_closed_sides(), dp, f64::INFINITY)
-        }
-        (None, _) if case.numerics.wall_slip == case::WallSlip::Inviscid => particles_of(shape, 0.5 * dp),
-        _ => particles_of(shape, dp),
+    let dp = case.domain.dp;
+    let mut particles = match box_in_place(shape, case) {
+        Some(bounds) => box_particles(&bounds, dp, f64::INFINITY),
+        None if case.numerics.wall_slip == case::WallSlip::Inviscid => particles_of(shape, 0.5 * dp),
+        None => particles_of(shape, dp),
     };
     if case.numerics.slip_on_units {
         particles.iter_mut().for_each(|particle| particle.mirroring = Mirroring::Full);
     }
     particles
+}
+
+/// Returns the box of a cuboid in body axes, with the faces that water can reach; `None` for other shapes.
+pub(super) fn box_in_place(shape: &ArmourUnit, case: &Case) -> Option<AxisBox> {
+    let case::Domain { dp, width, sides, .. } = case.domain;
+    let bounds = shape.as_box()?;
+    Some(match sides {
+        case::Sides::TwoDimensional => bounds.slice(width),
+        case::Sides::Periodic if width - bounds.edges().y < NARROWEST_GAP * dp => bounds.with_closed_sides(),
+        _ => bounds,
+    })
 }
 
 /// Returns the boundary particles of a unit in body axes, for the particle spacing `dp` [m].

@@ -54,6 +54,10 @@ pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 /// beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
 pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 
+/// Longest horizontal way from the surface point of a boundary particle to its ghost node [h]. Only particles deep below a
+/// standing body are further from their surface point.
+const LONGEST_WAY: f64 = 3.0;
+
 /// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
 pub(super) const MIN_CHUNK: usize = 1024;
 
@@ -115,12 +119,12 @@ impl GhostNodes {
         records: &[Record],
         boundary: &mut Boundary,
     ) {
-        let count = boundary.len();
+        let (count, h) = (boundary.len(), parameters.kernel.h);
         self.points.resize(count, DVec3::ZERO);
         (&mut self.points, &boundary.position, &boundary.to_surface)
             .into_par_iter()
             .with_min_len(MIN_CHUNK)
-            .for_each(|(point, &position, &to_surface)| *point = position + 2.0 * to_surface);
+            .for_each(|(point, &position, &to_surface)| *point = position + (to_surface + beyond(to_surface, h)));
         self.bins.sort(grid, &self.points);
         self.sorted.resize(count, DVec3::ZERO);
         self.split.resize(count, [0.0; 4]);
@@ -205,6 +209,17 @@ impl NodeTerms<17, 0> for NodeSums {
     }
 }
 
+/// Returns the vector from the surface point of a boundary particle to its ghost node [m]. `to_surface` is the vector to
+/// the surface point [m], and `h` the smoothing length [m].
+fn beyond(to_surface: DVec3, h: f64) -> DVec3 {
+    let way = to_surface.truncate().length();
+    if way <= LONGEST_WAY * h {
+        to_surface
+    } else {
+        (to_surface.truncate() * (LONGEST_WAY * h / way)).extend(to_surface.z)
+    }
+}
+
 impl NodeSums {
     /// Returns the density of the boundary particle [kg/m3]; `to_surface` [m] is half the vector from the particle to
     /// this node.
@@ -214,8 +229,9 @@ impl NodeSums {
         if occupied < DRY_LIMIT {
             return rho0;
         }
-        // Vector from the node to the boundary particle [h].
-        let back = -2.0 * to_surface / parameters.kernel.h;
+        let h = parameters.kernel.h;
+        // Vector from the node to the boundary particle, or to the same level at most `LONGEST_WAY` behind the surface [h].
+        let back = -2.0 * beyond(to_surface, h) / h;
         let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
         let above_centroid = back.z - f64::from(self.value[3]) / occupied;
         let around = f64::from(self.value_f) / occupied;

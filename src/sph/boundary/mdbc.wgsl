@@ -137,13 +137,24 @@ fn fitted(sums: NodeSums, back: vec3<f32>, mean: f32) -> f32 {
     return value + dot(vec3<f32>(x, y, z), back);
 }
 
+// Returns the vector from the surface point of a boundary particle to its ghost node [m]; `surface` [m] is the vector from
+// the particle to its surface point (`beyond` in mdbc.rs).
+fn beyond(surface: vec3<f32>) -> vec3<f32> {
+    let longest = 3.0 * parameters.h;
+    let way = length(surface.xy);
+    if way <= longest {
+        return surface;
+    }
+    return vec3<f32>(surface.xy * (longest / way), surface.z);
+}
+
 // Returns rho - rho0 of the boundary particle; `surface` [m] is the vector from the particle to its surface.
 fn excess_density(sums: NodeSums, surface: vec3<f32>) -> f32 {
     let occupied = sums.value.w;
     if occupied < parameters.dry {
         return 0.0;
     }
-    let back = -2.0 * surface / parameters.h;
+    let back = -2.0 * beyond(surface) / parameters.h;
     let above_centroid = back.z - sums.value.z / occupied;
     let mean = sums.value_f / occupied + parameters.density_slope * above_centroid * parameters.h;
     let trust = trust_in(sums, surface);
@@ -164,7 +175,7 @@ fn densities(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     }
     let i = order[place];
     let surface = to_surface[i].xyz;
-    var node = split(cell[i].xyz, offset[i].xyz + 2.0 * surface);
+    var node = split(cell[i].xyz, offset[i].xyz + (surface + beyond(surface)));
     if PERIODIC {
         node.z -= parameters.width * round(node.z / parameters.width);
     }

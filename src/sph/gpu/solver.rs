@@ -149,6 +149,10 @@ impl GpuSolver {
         self.card.write(&memory.boundary_cell, first, &state.cell);
         self.card.write(&memory.boundary_motion, first, &state.motion);
         self.card.write(&memory.to_surface, first, &surfaces);
+        let covered = boundary.ever_covered();
+        if !covered.is_empty() {
+            self.card.write(&memory.to_surface, covered.start, &CardState::surfaces_of(boundary, covered.clone()));
+        }
         loaded.largest_speeds[1] = largest(&boundary.velocity[first..]);
     }
 }

@@ -58,9 +58,14 @@ impl CardState {
             let unit = i.checked_sub(boundary.walls().end).map_or(0, |k| 1 + boundary.unit_numbers()[k] as i32);
             to_card(grid, boundary.position[i], boundary.velocity[i], excess, mass, unit)
         };
-        let surface = |i: usize| boundary.to_surface[i].as_vec3().extend(0.0).to_array();
-        let surfaces = particles.clone().into_par_iter().with_min_len(MIN_CHUNK).map(surface).collect();
+        let surfaces = Self::surfaces_of(boundary, particles.clone());
         (Self::collect(particles, particle), surfaces)
+    }
+
+    /// Converts the vectors from boundary particles to their surfaces [m] to the layout of the card.
+    pub fn surfaces_of(boundary: &Boundary, particles: std::ops::Range<usize>) -> Vec<[f32; 4]> {
+        let surface = |i: usize| boundary.to_surface[i].as_vec3().extend(0.0).to_array();
+        particles.into_par_iter().with_min_len(MIN_CHUNK).map(surface).collect()
     }
 
     fn collect(

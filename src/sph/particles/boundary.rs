@@ -5,6 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::{
+    geometry::axis_box::AxisBox,
     mechanics::{BodyState, Load},
     sph::terms::wall_slip::Mirroring,
 };
@@ -36,6 +37,13 @@ pub struct Boundary {
     anchor: Vec<DVec3>,
     /// Reference value of `to_surface` [m]; for a unit particle, this vector is in the unit's axes.
     anchor_to_surface: Vec<DVec3>,
+    /// For each unit, the box in its axes to whose open faces the surface vectors lead; `None` if they have their
+    /// reference values.
+    standing: Vec<Option<AxisBox>>,
+    /// Indices of the wall particles that units cover.
+    covered: Vec<usize>,
+    /// Range of the indices of all wall particles that units have covered so far.
+    ever_covered: Range<usize>,
 }
 
 /// Particles that move in rows along x.
@@ -85,6 +93,7 @@ impl Boundary {
             boundary.units.push(first..boundary.len());
             boundary.unit_numbers.extend(unit.iter().map(|_| number as u32));
         }
+        boundary.standing = vec![None; units.len()];
         boundary.anchor = boundary.position.clone();
         boundary.anchor_to_surface = boundary.to_surface.clone();
         boundary
@@ -169,11 +178,46 @@ impl Boundary {
     /// Moves the particles of a unit according to the position, rotation and velocities of its rigid body.
     pub fn move_unit(&mut self, unit: usize, motion: &BodyState) {
         for particle in self.units[unit].clone() {
-            let arm = motion.rotation * self.anchor[particle];
+            let place = self.anchor[particle];
+            let arm = motion.rotation * place;
+            let to_surface = match &self.standing[unit] {
+                Some(bounds) => bounds.vector_to_surface(place),
+                None => self.anchor_to_surface[particle],
+            };
             self.position[particle] = motion.position + arm;
             self.velocity[particle] = motion.velocity + motion.angular_velocity.cross(arm);
-            self.to_surface[particle] = motion.rotation * self.anchor_to_surface[particle];
+            self.to_surface[particle] = motion.rotation * to_surface;
         }
+    }
+
+    /// Lets the surface vectors of a unit lead to the open faces of a box in its axes, from the next
+    /// [`Self::move_unit`] on; `None` gives them their reference values.
+    pub fn stand_unit(&mut self, unit: usize, bounds: Option<AxisBox>) {
+        self.standing[unit] = bounds;
+    }
+
+    /// Gives these wall particles new surface vectors [m], and all other wall particles their own ones.
+    pub fn cover_walls(&mut self, covered: impl Iterator<Item = (usize, DVec3)>) {
+        for particle in self.covered.drain(..) {
+            self.to_surface[particle] = self.anchor_to_surface[particle];
+        }
+        for (particle, to_surface) in covered {
+            self.to_surface[particle] = to_surface;
+            self.covered.push(particle);
+            let Range { start, end } = self.ever_covered;
+            let is_first = start == end;
+            self.ever_covered = if is_first { particle } else { start.min(particle) }..end.max(particle + 1);
+        }
+    }
+
+    /// Returns a range of indices that contains all wall particles whose surface vectors have changed since the start.
+    pub fn ever_covered(&self) -> Range<usize> {
+        self.ever_covered.clone()
+    }
+
+    /// Returns the index of each particle of bed and walls, and the surface point to which its own vector leads [m].
+    pub fn wall_surface(&self) -> impl Iterator<Item = (usize, DVec3)> {
+        (0..self.pistons().start).map(|particle| (particle, self.anchor[particle] + self.anchor_to_surface[particle]))
     }
 }
 
