@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::file::{ArmourFile, ArmourOrientation, CaseFile, DryFile, UnitGroupsFile};
+use super::flume::domain::StillWater;
 use super::flume::part::Part;
 use super::flume::{ground, site::Site};
 use super::reading::check::{Checker, at_least, more_than};
@@ -56,6 +57,8 @@ pub struct LayerJob {
     pub contact: Contact,
     /// Gravitational acceleration, positive [m/s2].
     pub gravity: f64,
+    /// Still water in which the layers settle at the end; `None` for a dry test.
+    pub still_water: Option<StillWater>,
 }
 
 impl LayerJob {
@@ -111,7 +114,7 @@ impl LayerJob {
 
 fn validate_dry_test(file: &DryFile, document: &Document, check: &mut Checker) -> Option<LayerJob> {
     let ground = dry_test::validate_ground(file, &document.name, check);
-    validate_job(&file.title, &file.units, &ground.surroundings(&document.name), file.gravity_m_s2, check)
+    validate_job(&file.title, &file.units, &ground.surroundings(&document.name), file.gravity_m_s2, None, check)
 }
 
 fn validate_flume_case(file: &CaseFile, document: &Document, check: &mut Checker) -> Option<LayerJob> {
@@ -126,7 +129,8 @@ fn validate_flume_case(file: &CaseFile, document: &Document, check: &mut Checker
     };
     let site = domain.site(&flume);
     let around = flume_case::surroundings(file, &document.name, Some(&site), &materials, contact);
-    validate_job(&file.title, units, &around, file.fluid.gravity_m_s2, check)
+    let still_water = domain.still_water(&flume, file.fluid.density_kg_m3);
+    validate_job(&file.title, units, &around, file.fluid.gravity_m_s2, still_water, check)
 }
 
 fn validate_job(
@@ -134,6 +138,7 @@ fn validate_job(
     file: &UnitGroupsFile,
     around: &Surroundings,
     gravity: f64,
+    still_water: Option<StillWater>,
     check: &mut Checker,
 ) -> Option<LayerJob> {
     let before = check.count();
@@ -164,7 +169,7 @@ fn validate_job(
     }
     let (title, site, materials) = (title.to_owned(), around.site?.clone(), around.materials.list.clone());
     let units = units::with_ground(groups, placements, around, check)?;
-    let job = LayerJob { title, site, units, layers, materials, contact: around.contact, gravity };
+    let job = LayerJob { title, site, units, layers, materials, contact: around.contact, gravity, still_water };
     for layers in &job.layers {
         let count = job.count(layers);
         if !(1..=MAX_UNITS as usize).contains(&count) {

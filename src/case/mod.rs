@@ -39,7 +39,7 @@ pub use file::{
 };
 pub use flume::bed::{Flume, Mound};
 pub use flume::body::BodyPart;
-pub use flume::domain::{Domain, Start, Water};
+pub use flume::domain::{Domain, Start, StillWater, Water};
 pub use flume::part::{Part, PartShape};
 pub use flume::regions::Region;
 pub use flume::site::Site;

@@ -14,6 +14,8 @@ use parry3d_f64::query::{PointQuery, Ray, RayCast, intersection_test};
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 use thiserror::Error;
 
+use super::convex::half_space::{HalfSpace, split};
+
 /// Reason why a triangle surface does not bound a body.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SolidError {
@@ -165,6 +167,26 @@ impl Solid {
         Some((hit.time_of_impact, hit.normal.dot(direction).abs()))
     }
 
+    /// Returns volume [m3] and centroid [m] of the part of the body below the `level` [m] along the unit vector `up`. The
+    /// centroid of nothing is the origin.
+    pub fn below(&self, up: DVec3, level: f64) -> (f64, DVec3) {
+        let plane = HalfSpace { normal: up, offset: level };
+        // Tetrahedra between the surface and a point of the plane. The cut in the plane adds none.
+        let tip = level * up;
+        let (mut volume, mut moment) = (0.0, DVec3::ZERO);
+        for triangle in self.triangles() {
+            let corners = triangle.map(|corner| self.vertices()[corner as usize]);
+            let [ring, _] = split(&corners, &plane, 0.0);
+            for k in 2..ring.len() {
+                let [a, b, c] = [ring[0], ring[k - 1], ring[k]].map(|corner| corner - tip);
+                let of_one = a.dot(b.cross(c)) / 6.0;
+                volume += of_one;
+                moment += of_one * (tip + 0.25 * (a + b + c));
+            }
+        }
+        if volume > 0.0 { (volume, moment / volume) } else { (0.0, DVec3::ZERO) }
+    }
+
     /// Returns the body moved by `shift` [m].
     pub fn translated(&self, shift: DVec3) -> Result<Self, SolidError> {
         Self::new(self.vertices().iter().map(|v| *v + shift).collect(), self.triangles().to_vec())
@@ -253,6 +275,23 @@ pub(crate) mod tests {
         let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
         let triangles = faces.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]).collect();
         ((0..8).map(corner).collect(), triangles)
+    }
+
+    #[test]
+    fn part_of_a_box_below_a_level_is_a_box_or_a_wedge() {
+        let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0));
+        let solid = Solid::new(vertices, triangles).unwrap();
+        let check = |up: DVec3, level: f64, volume: f64, centre: DVec3| {
+            let found = solid.below(up, level);
+            // Rounding.
+            assert!((found.0 - volume).abs() < 1e-12 && (found.1 - centre).length() < 1e-12, "{found:?}");
+        };
+        check(DVec3::Z, -1.0, 0.0, DVec3::ZERO);
+        check(DVec3::Z, 0.0, 0.0, DVec3::ZERO);
+        check(DVec3::Z, 1.2, 2.4, DVec3::new(0.5, 1.0, 0.6));
+        check(DVec3::Z, 5.0, 6.0, DVec3::new(0.5, 1.0, 1.5));
+        // The plane x + z = 1 cuts a wedge off.
+        check(DVec3::new(1.0, 0.0, 1.0).normalize(), 0.5f64.sqrt(), 1.0, DVec3::new(1.0 / 3.0, 1.0, 1.0 / 3.0));
     }
 
     #[test]

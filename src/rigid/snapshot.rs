@@ -92,6 +92,17 @@ impl RigidWorld {
         }
     }
 
+    /// Takes springs and forces of all contacts from another world with the same bodies at the same places.
+    pub fn adopt_contacts(&mut self, other: &Self) {
+        for contact in &mut self.contacts {
+            if let Some(same) = other.contacts.iter().find(|same| same.key == contact.key) {
+                *contact = *same;
+            }
+        }
+        self.contact_now.clone_from(&other.contact_now);
+        self.energy.elastic = other.energy.elastic;
+    }
+
     /// Restores the state from a snapshot of a world with the same setup.
     pub fn restore(&mut self, snapshot: &RigidSnapshot) -> Result<(), RigidError> {
         if snapshot.bodies.len() != self.position.len() {

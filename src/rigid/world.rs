@@ -142,6 +142,11 @@ impl RigidWorld {
         &self.states
     }
 
+    /// Kind of each body, an index into the kinds of the set-up.
+    pub fn kinds(&self) -> &[usize] {
+        &self.kind
+    }
+
     /// Time [s] since the start.
     pub fn time(&self) -> f64 {
         self.time
@@ -212,6 +217,23 @@ impl RigidWorld {
     /// Sets the gravity vector [m/s2]; a tilt test rotates gravity instead of the ground.
     pub fn set_gravity(&mut self, gravity: DVec3) {
         self.gravity = gravity;
+    }
+
+    /// Sets the velocity of a fixed body [m/s], with which it moves until the next call.
+    ///
+    /// # Errors
+    /// If forces move this body.
+    pub fn drive(&mut self, body: usize, velocity: DVec3) -> Result<(), RigidError> {
+        if !self.inertias[self.kind[body]].is_fixed() {
+            let mass = self.inertias[self.kind[body]].mass;
+            return Err(RigidError::Setup {
+                what: "the mass of a driven body [kg]".into(),
+                value: mass,
+                allowed: "infinite",
+            });
+        }
+        self.velocity[body] = velocity;
+        Ok(())
     }
 
     /// Sets the number of substeps in the shortest oscillation period [-]; [`STEPS_PER_PERIOD`] at the start. Fewer
@@ -332,7 +354,12 @@ impl RigidWorld {
 
     fn add_load_work(&mut self, loads: &[Load], angular_mid: &[DVec3], h: f64) {
         for (body, load) in loads.iter().enumerate() {
-            let power = load.force.dot(self.velocity[body]) + load.torque.dot(angular_mid[body]);
+            let power = if self.inertias[self.kind[body]].is_fixed() {
+                // A driven body does work on those that it touches.
+                -self.contact_now[body].force.dot(self.velocity[body])
+            } else {
+                load.force.dot(self.velocity[body]) + load.torque.dot(angular_mid[body])
+            };
             self.energy.load_work += power * h;
         }
     }

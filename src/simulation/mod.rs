@@ -16,3 +16,4 @@ pub mod breakage;
 pub mod dry_test;
 pub mod flume;
 pub mod fracture;
+pub mod settling;

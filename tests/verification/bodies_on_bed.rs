@@ -1,7 +1,7 @@
 //! Fixed bodies that stand on the bed: no water passes below them, and the water presses on them as on walls.
 
 use breakwater::simulation::flume::Simulation;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 
 use super::tanks::{GRAVITY, RHO0, run_until, simulation};
@@ -91,4 +91,49 @@ fn no_water_passes_below_a_heavy_block_that_stands_on_the_bed() {
     let moved = check_block(&json!({ "mass_kg": 12.0 }));
     println!("moved by {:.3} mm", 1e3 * moved);
     assert!(moved < 0.05 * DP);
+}
+
+#[test]
+fn a_block_that_follows_a_path_makes_the_wave_of_a_piston() {
+    let speed = 0.15;
+    let (end, dp) = (2.0, 2.0 * DP);
+    let case = json!({
+        "title": "Block as piston",
+        "flume": { "bed_m": [[0.0, 0.0], [4.2, 0.0]], "still_water_level_m": DEPTH, "material": "mortar" },
+        "domain": { "x_m": [0.0, 4.2], "sides": "two_dimensional", "top_z_m": 0.4, "dp_m": dp },
+        "materials": [{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
+        "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.5 }],
+        "units": { "shape": "cuboid", "size_m": [0.1, 0.3, 0.3], "mass_kg": 18.0, "material": "mortar",
+            "fixed": true, "way": [[0.2, 0.0, 0.0, 0.0], [end, speed * (end - 0.2), 0.0, 0.0]],
+            "poses": [{ "centre_m": [0.3, 0.0, 0.15] }] },
+        "stop": { "duration_s": end },
+    });
+    let mut tank = simulation(&case);
+    let mut levels = Vec::new();
+    run_until(&mut tank, end, |now| {
+        let time = now.time;
+        let level = now.sampler().unwrap().surface(DVec2::new(0.9, 0.5 * dp), 0.0);
+        // The front of the wave passes 0.4 s after the start and reaches the end of the tank after 2.4 s. It is followed by
+        // waves, which are averaged.
+        levels.extend(level.filter(|_| time > 1.0));
+    });
+    let rise = levels.iter().sum::<f64>() / levels.len() as f64 - DEPTH;
+    // A piston with the speed u drives a wave with the celerity c = sqrt(g D (D + d) / (2 d)) into water of the depth d;
+    // D is the depth behind the front, and u D = c (D - d) (Stoker 1957, section 10.6).
+    let speed_of = |rise: f64| {
+        let high = DEPTH + rise;
+        (GRAVITY * high * (high + DEPTH) / (2.0 * DEPTH)).sqrt() * rise / high
+    };
+    let (mut low, mut high) = (0.0, DEPTH);
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if speed_of(middle) < speed { low = middle } else { high = middle }
+    }
+    let units = tank.units.as_ref().unwrap();
+    let moved = units.states()[0].position.x - 0.3;
+    println!("rise {:.2} mm, by theory {:.2} mm; moved {moved:.6} m", 1e3 * rise, 1e3 * low);
+    // The block follows the path; the last step ends behind `end`, where it stands still.
+    assert!((moved - speed * (end - 0.2)).abs() < 1e-12);
+    // Limit: dp / 10.
+    assert!((rise - low).abs() < 0.1 * dp, "{rise} {low}");
 }

@@ -28,6 +28,7 @@ mod reproducibility;
 mod returning_waves;
 mod rigid;
 mod schemes;
+mod section;
 mod solitary_wave;
 mod standing_wave;
 mod still_water;

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use breakwater::bench::tank::Tank;
 use breakwater::case::Case;
-use breakwater::geometry::outline::Outline;
-use breakwater::geometry::{armour_unit::ArmourUnit, solid::Solid};
+use breakwater::geometry::{armour_unit::ArmourUnit, outline::Outline};
 use breakwater::rigid::BodyState;
 use breakwater::simulation::flume::{Simulation, step::PreparedStep};
 use breakwater::sph::particles::bed::{Across, outline_particles};
@@ -201,26 +200,4 @@ impl BareTank {
         self.solver.correct(dt, &mut self.water, &mut self.boundary);
         dt
     }
-}
-
-/// Returns the volume of a solid below a level z [m3]: the flux of the field (0, 0, z - level) through the surface
-/// below the level. The divergence of this field is 1, and the field is zero on the plane of the level.
-pub fn volume_below(solid: &Solid, level: f64) -> f64 {
-    let vertices = solid.vertices();
-    solid.triangles().iter().map(|corners| flux_below(corners.map(|c| vertices[c as usize]), level)).sum()
-}
-
-fn flux_below(triangle: [DVec3; 3], level: f64) -> f64 {
-    let mut below: Vec<DVec3> = Vec::new();
-    for k in 0..3 {
-        let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
-        if a.z < level {
-            below.push(a);
-        }
-        if (a.z < level) != (b.z < level) {
-            below.push(a.lerp(b, (level - a.z) / (b.z - a.z)));
-        }
-    }
-    let fan = (1..below.len().max(2) - 1).map(|k| [below[0], below[k], below[k + 1]]);
-    fan.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).z * ((a.z + b.z + c.z) / 3.0 - level)).sum()
 }

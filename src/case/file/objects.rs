@@ -17,6 +17,11 @@ pub struct UnitsFile {
     // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(default, skip_serializing_if = "is_false")]
     pub fixed: bool,
+    /// Path of fixed units, which then move along it, whatever the forces on them. Each row [t, x, y, z] has the time t from
+    /// the start of the particle simulation [s] and the displacement x, y, z from the start [m]. The displacement is
+    /// linear between rows and constant before the first and after the last row. The first row has no displacement.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub way: Vec<[f64; 4]>,
     /// Shape of a unit.
     pub shape: Shape,
     /// Height H of a Tetrapod that stands on three legs, of a Dolos or of a grooved cube, or size C of a Core-Loc [m].

@@ -10,6 +10,15 @@ use crate::case::reading::check::{Checker, as_text, at_least, lower_limit, more_
 /// Largest number of particles along one direction.
 const MOST_ALONG: f64 = 1e6;
 
+/// Still water around units; SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StillWater {
+    /// Level [m].
+    pub level: f64,
+    /// Density [kg/m3].
+    pub density: f64,
+}
+
 /// The particle domain; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
@@ -75,6 +84,12 @@ pub enum Water {
 }
 
 impl Domain {
+    /// Returns the still water in the domain, which has the given density [kg/m3]; `None` if the run starts with a block of
+    /// water.
+    pub(in crate::case) fn still_water(&self, flume: &Flume, density: f64) -> Option<StillWater> {
+        (self.water == Water::StillLevel).then_some(StillWater { level: flume.still_water_level, density })
+    }
+
     /// Returns the ground and the boundaries of the area in which units stand.
     pub fn site(&self, flume: &Flume) -> Site {
         let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);

@@ -23,7 +23,11 @@ use std::path::Path;
 use self::numerics::{Fluid, Numerics};
 pub(super) use self::validate::surroundings;
 use super::breakage::BreakageSettings;
-use super::flume::{bed::Flume, domain::Domain, site::Site};
+use super::flume::{
+    bed::Flume,
+    domain::{Domain, StillWater},
+    site::Site,
+};
 use super::output::{files::Output, gauges::Gauge, stop::Stop};
 use super::reading::document::Document;
 use super::reading::error::CaseErrors;
@@ -106,6 +110,11 @@ impl Case {
     pub fn from_document(document: &Document) -> Result<Self, CaseErrors> {
         let (case, warnings) = document.validate(validate::validate)?;
         Ok(Self { warnings, ..case })
+    }
+
+    /// Returns the still water at the start; `None` if the run starts with a block of water.
+    pub fn still_water(&self) -> Option<StillWater> {
+        self.domain.still_water(&self.flume, self.fluid.rho0)
     }
 
     /// Returns the ground and the boundaries of the area in which units stand.

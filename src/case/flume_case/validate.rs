@@ -164,8 +164,8 @@ pub fn surroundings<'a>(
     materials: &'a Materials,
     contact: Contact,
 ) -> Surroundings<'a> {
-    let (dp, rho0) = (file.domain.dp_m, file.fluid.density_kg_m3);
-    let water = Some(WaterAround { dp, rho0 });
+    let (dp, rho0, hold) = (file.domain.dp_m, file.fluid.density_kg_m3, file.numerics.hold_units_s);
+    let water = Some(WaterAround { dp, rho0, hold });
     Surroundings { name, site, materials, ground_named: file.flume.material.is_some(), contact, water }
 }
 

@@ -10,7 +10,7 @@ use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
 use crate::case::flume::part::{Part, PartShape};
 use crate::case::reading::check::{Checker, as_text};
-use crate::case::units::Units;
+use crate::case::units::{Units, way::Way};
 use crate::case::wave::wavemaker::Wavemaker;
 
 /// Depth inside a part at which a point still counts as on its face, divided by the particle spacing [-].
@@ -45,25 +45,8 @@ pub enum Motion {
     Fixed,
     /// Moves with the unit of this index, counted from 0.
     OnUnit(usize),
-    /// Moves along a path. Each row has the time from the start of the particle simulation [s] and the displacement
-    /// [m].
-    Way(Vec<[f64; 4]>),
-}
-
-impl Gauge {
-    /// Returns the displacement [m] of a gauge with a path; 0 for other gauges. `time` counts from the start of the
-    /// particle simulation [s].
-    pub fn displacement(&self, time: f64) -> [f64; 3] {
-        let Motion::Way(way) = &self.motion else { return [0.0; 3] };
-        let after = way.partition_point(|point| point[0] <= time);
-        let row = |i: usize| [way[i][1], way[i][2], way[i][3]];
-        if after == 0 || after == way.len() {
-            return row(after.saturating_sub(1));
-        }
-        let (from, to) = (row(after - 1), row(after));
-        let share = (time - way[after - 1][0]) / (way[after][0] - way[after - 1][0]);
-        std::array::from_fn(|k| from[k] + share * (to[k] - from[k]))
-    }
+    /// Moves along a path.
+    Way(Way),
 }
 
 /// Quantity that a gauge measures.
@@ -297,26 +280,16 @@ fn validate_force(
 }
 
 fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Checker) -> Motion {
-    let is_increasing = point.way.windows(2).all(|pair| pair[1][0] > pair[0][0]);
-    let is_finite = point.way.iter().flatten().all(|value| value.is_finite());
-    if !(is_increasing && is_finite) {
-        check.reject(
-            &format!("{path}.way"),
-            format!("{} rows", point.way.len()),
-            "rows [t, x, y, z] of finite numbers with increasing times",
-            "write times from the start of the particles [s] and displacements [m]",
-        );
-    }
+    let way = Way::validate(&point.way, &format!("{path}.way"), check);
     match point.on_unit {
-        None if point.way.is_empty() => Motion::Fixed,
-        None => Motion::Way(point.way.clone()),
+        None => way.map_or(Motion::Fixed, Motion::Way),
         Some(unit) => {
             if unit == 0 || unit as usize > units {
                 let allowed =
                     if units == 0 { "left out: there are no units".to_owned() } else { format!("1 to {units}") };
                 check.reject(&format!("{path}.on_unit"), unit, allowed, "units are numbered from 1, as in units.csv");
             }
-            if !point.way.is_empty() {
+            if way.is_some() {
                 let advice = "a gauge moves either with a unit or along a path";
                 check.reject(&format!("{path}.way"), "given", "left out with `on_unit`", advice);
             }

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::damage::DamageLimits;
 use super::shape::{UnitKind, UnitShape};
+use super::way::Way;
 
 /// Shape and mass of units; SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,8 +28,12 @@ pub struct UnitGroup {
     pub nominal_diameter: f64,
     /// Indices of the units of this group in [`Units::placements`](super::Units::placements).
     pub members: Range<usize>,
-    /// Fixed units do not move.
+    /// Forces do not move fixed units.
     pub is_fixed: bool,
+    /// True if the units are armour layers that `breakwater place` has placed.
+    pub is_layer: bool,
+    /// Path of fixed units, if they move.
+    pub way: Option<Way>,
     /// In two dimensions, width of a unit / thickness of the particle layer [-]; 1 in three dimensions.
     pub slices: f64,
     /// Limits above which a unit counts as damaged, rotated or rocking.
@@ -41,6 +46,11 @@ impl UnitGroup {
     /// Returns the index in [`Self::models`] of a unit; `member` counts the units of the group from 0.
     pub fn model_of(&self, member: usize) -> usize {
         member % self.models.len()
+    }
+
+    /// Returns true if the units can move.
+    pub fn moves(&self) -> bool {
+        !self.is_fixed || self.way.is_some()
     }
 
     /// Returns the model of each unit.

@@ -7,6 +7,7 @@
 //! | [`pose`] | pose of a unit: position and rotation |
 //! | [`row`], [`centres`], [`poses`] | the three ways to place units |
 //! | [`planar`] | checks for units in two dimensions |
+//! | [`way`] | paths of gauges and fixed units |
 //! | [`damage`] | limits above which a unit counts as damaged, rotated or rocking |
 //! | [`materials`], [`contact`], [`resistance`] | materials, contact settings, friction and restitution |
 
@@ -23,6 +24,7 @@ mod rock;
 mod row;
 pub mod shape;
 mod stl;
+pub mod way;
 
 use glam::DVec3;
 
@@ -31,6 +33,7 @@ use self::group::{UnitGroup, UnitModel};
 use self::materials::Materials;
 pub use self::pose::UnitPose;
 use self::shape::{UnitKind, UnitShape};
+use self::way::Way;
 use super::file::{Orientation, PoseFile, Sides, UnitGroupsFile, UnitsFile};
 use super::flume::part::Part;
 use super::flume::site::Site;
@@ -114,6 +117,8 @@ pub(super) struct WaterAround {
     pub dp: f64,
     /// Reference density of the water [kg/m3].
     pub rho0: f64,
+    /// Time at the start during which units do not move [s].
+    pub hold: f64,
 }
 
 /// Validates the units and places them at their initial poses.
@@ -210,6 +215,7 @@ pub(super) fn validate_unplaced(
             "write the material of the bed",
         );
     }
+    let way = validate_way(file, around, check);
     if check.count() > before {
         return None;
     }
@@ -228,10 +234,30 @@ pub(super) fn validate_unplaced(
         mass: file.mass_kg,
         members: 0..0,
         is_fixed: file.fixed,
+        is_layer: file.armour.is_some(),
+        way,
         slices: 1.0,
         limits: limits?,
         material: material?,
     })
+}
+
+/// Returns the path of fixed units.
+fn validate_way(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Way> {
+    let way = Way::validate(&file.way, ".way", check)?;
+    let Some(water) = &around.water else {
+        check.reject(".way", "given", "left out in a dry test", "only flume cases move units along a path");
+        return None;
+    };
+    if !file.fixed {
+        let advice = "write \"fixed\": true; forces move other units";
+        check.reject(".way", "given", "left out without `fixed`", advice);
+    }
+    if way.begin() < water.hold || way.displacement(0.0) != DVec3::ZERO {
+        let advice = "units stand still until then; begin with a row [t, 0, 0, 0]";
+        check.reject(".way[0]", format!("{:?}", file.way[0]), format!("[at least {}, 0, 0, 0]", water.hold), advice);
+    }
+    Some(way)
 }
 
 /// Places the units in a row, at their centres or in their poses. Returns `None` if the case file has errors that

@@ -3,7 +3,8 @@
 //! Like a crane, the program places the units layer by layer, and row by row from the toe upwards. The number of units
 //! is N = phi A / D_n^2, with packing density phi, area A of the slope, and nominal diameter D_n of a unit. The units
 //! are lowered at the nodes of a staggered grid; contact forces determine where they come to rest. Units that leave the
-//! slope are replaced where the layers are thinnest. Groups without layers are in their places from the start.
+//! slope are replaced where the layers are thinnest. Groups without layers are in their places from the start. At the
+//! end, the layers of a flume case settle once more with the buoyancy of still water, which relieves their contacts.
 
 mod lower;
 mod slots;
@@ -16,8 +17,11 @@ use thiserror::Error;
 use crate::{
     case::{LayerJob, Layers, PlacedGroupFile, PlacementFile, PoseFile, group},
     random::SplitMix64,
-    rigid::{BodyState, Load, RigidError, RigidWorld, STEPS_PER_PERIOD},
-    simulation::bodies::rigid_setup,
+    rigid::{BodyState, RigidError, RigidWorld, STEPS_PER_PERIOD},
+    simulation::{
+        bodies::rigid_setup,
+        settling::{COARSE_STEPS, LONGEST, REST_SPEED, Surroundings, fastest},
+    },
 };
 use lower::lowered;
 use slots::{Slot, rows, thinnest};
@@ -28,8 +32,6 @@ const TOLERANCE: f64 = 0.03;
 const MOST_ROUNDS: usize = 5;
 /// Changes the seed of the layers for the rotations of replaced units.
 const REPLACEMENTS: u64 = 0x5eed;
-/// Time between two checks of the unit speeds [s].
-const CHECK_INTERVAL: f64 = 1e-3;
 /// Shortest and longest settling time of a row [s].
 const ROW_TIME: [f64; 2] = [0.05, 1.0];
 /// The next row is placed when all units are slower than this: speed divided by sqrt(g H), with the unit height H [-].
@@ -38,14 +40,6 @@ const ROW_SPEED: f64 = 0.15;
 const ROUND_SPEED: f64 = 0.01;
 /// Longest settling time before lost units are replaced [s].
 const ROUND_TIME: f64 = 2.0;
-/// Longest settling time after the last row [s].
-const LAST_TIME: f64 = 10.0;
-/// Units slower than this are at rest: speed divided by sqrt(g H), with the unit height H [-].
-const REST_SPEED: f64 = 1e-4;
-
-/// Number of substeps in the shortest oscillation period of a unit until all units are at rest [-]. The equilibrium of
-/// the units does not depend on the length of the substeps, and a rebound need not be exact while a layer is built.
-const COARSE_STEPS: f64 = 20.0;
 
 /// Reason why an armour layer cannot be placed.
 #[derive(Debug, Error)]
@@ -154,7 +148,8 @@ fn place_layers(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<Ar
     let setup = rigid_setup(&job.units, &job.site, &job.materials, job.contact.law, job.gravity);
     let world = RigidWorld::new(setup)?;
     let first = world.states().len();
-    let mut yard = Yard { job, potential: world.energy().potential, world, first, begin: first };
+    let around = Surroundings { units: &job.units, gravity: job.gravity, water: None };
+    let mut yard = Yard { job, potential: world.energy().potential, world, first, begin: first, around };
     yard.world.set_steps_per_period(COARSE_STEPS);
     let mut members = Vec::new();
     for layers in &job.layers {
@@ -168,9 +163,11 @@ fn place_layers(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<Ar
         yard.replace_lost(layers, &mut report)?;
         members.push(yard.begin..yard.world.states().len());
     }
-    yard.settle(REST_SPEED, LAST_TIME)?;
-    yard.refine_substeps()?;
-    yard.settle(REST_SPEED, LAST_TIME)?;
+    yard.settle(REST_SPEED, LONGEST)?;
+    yard.around.water = job.still_water;
+    yard.settle(REST_SPEED, LONGEST)?;
+    yard.world.set_steps_per_period(STEPS_PER_PERIOD);
+    yard.settle(REST_SPEED, LONGEST)?;
     let Yard { world, potential, .. } = yard;
     let energy = world.energy();
     let group = |(layers, members): (&Layers, Range<usize>)| {
@@ -211,6 +208,7 @@ struct Yard<'a> {
     first: usize,
     /// Number of the first unit of the group that is being placed.
     begin: usize,
+    around: Surroundings<'a>,
 }
 
 impl Yard<'_> {
@@ -249,30 +247,14 @@ impl Yard<'_> {
         while self.world.time() - begun < ROW_TIME[0]
             || (fastest(&self.world, height) > slow && self.world.time() - begun < ROW_TIME[1])
         {
-            advance(&mut self.world)?;
-        }
-        Ok(())
-    }
-
-    /// Makes the substeps as short as in other runs, and waits until units that are then not at rest start to move.
-    fn refine_substeps(&mut self) -> Result<(), RigidError> {
-        self.world.set_steps_per_period(STEPS_PER_PERIOD);
-        let begun = self.world.time();
-        while self.world.time() - begun < ROW_TIME[0] {
-            advance(&mut self.world)?;
+            self.around.advance(&mut self.world)?;
         }
         Ok(())
     }
 
     /// Waits until all units are slower than `speed` times sqrt(g H) [-], at most for the time `longest` [s].
-    fn settle(&mut self, speed: f64, longest: f64) -> Result<(), PlacementError> {
-        let height = self.job.units.tallest();
-        let slow = speed * (self.job.gravity * height).sqrt();
-        let begun = self.world.time();
-        while fastest(&self.world, height) > slow && self.world.time() - begun < longest {
-            advance(&mut self.world)?;
-        }
-        Ok(())
+    fn settle(&mut self, speed: f64, longest: f64) -> Result<(), RigidError> {
+        self.around.settle(&mut self.world, speed, longest)
     }
 
     /// Lowers further units where the layers are thinnest, for the units of the group that left the slope.
@@ -294,15 +276,4 @@ impl Yard<'_> {
         }
         Ok(())
     }
-}
-
-fn advance(world: &mut RigidWorld) -> Result<(), RigidError> {
-    let loads = vec![Load::default(); world.states().len()];
-    world.advance(CHECK_INTERVAL, &loads)
-}
-
-/// Returns the largest speed of any unit [m/s]: the speed of the centre plus the speed of the tips by rotation.
-fn fastest(world: &RigidWorld, height: f64) -> f64 {
-    let speed = |state: &BodyState| state.velocity.length() + 0.5 * height * state.angular_velocity.length();
-    world.states().iter().map(speed).fold(0.0, f64::max)
 }

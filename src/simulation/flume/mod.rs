@@ -158,7 +158,8 @@ impl Simulation {
                 let (now, start) = (&units.states()[*unit], &units.start[*unit]);
                 now.position + now.rotation * (start.rotation.inverse() * (at - start.position))
             }
-            _ => at + DVec3::from_array(gauge.displacement(self.time)),
+            (Motion::Way(way), _) => at + way.displacement(self.time),
+            _ => at,
         }
     }
 

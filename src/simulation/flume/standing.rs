@@ -59,7 +59,7 @@ pub(super) fn cover_standing_units<'a>(
     let each = units.each().zip(units.states()).zip(group::model_of_each(&units.groups));
     for (((group, model), state), number) in each {
         let mut own = Cow::from(&of_models[number]);
-        if group.is_fixed {
+        if !group.moves() {
             cover_unit(walls, own.to_mut(), model.shape.unit().solid(), state, case);
         }
         of_each.push(own);

@@ -27,7 +27,7 @@ impl StandingCuboids {
     /// Lists the cuboids that can move among the units.
     pub(super) fn new(units: &Units, boundary: &Boundary, case: &Case) -> Self {
         let of_unit = |(unit, (group, model)): (usize, (&UnitGroup, &UnitModel))| {
-            let bounds = box_in_place(model.shape.unit(), case).filter(|_| !group.is_fixed)?;
+            let bounds = box_in_place(model.shape.unit(), case).filter(|_| group.moves())?;
             Some((unit, bounds))
         };
         let cuboids: Vec<_> = units.each().enumerate().filter_map(of_unit).collect();

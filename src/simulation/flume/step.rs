@@ -11,7 +11,8 @@ use super::{
     Simulation, Units, failure, failure::Failure, measures::water_at_impacts::RecordedUnits, wave::ends::move_ends,
 };
 use crate::{
-    rigid::BodyState,
+    case::UnitGroup,
+    rigid::{BodyState, RigidError, RigidWorld},
     sph::solver::{backend::DeviceError, power::Powers, sampling::Sampler},
 };
 
@@ -164,9 +165,11 @@ impl Simulation {
     fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
         let Some(units) = &mut self.units else { return Ok(()) };
         if self.time >= self.case.numerics.hold_units {
-            let Units { world, fluid_loads, water_at_impacts, recorded, .. } = units;
+            let Units { world, fluid_loads, water_at_impacts, recorded, groups, start, .. } = units;
             let since = world.time();
-            if let Err(error) = world.advance(dt, fluid_loads) {
+            if let Err(error) =
+                drive(world, groups, start, [self.time, dt]).and_then(|()| world.advance(dt, fluid_loads))
+            {
                 return Err(failure::of_units(self, error));
             }
             if world.impacts_with_peak_after(since).next().is_some()
@@ -280,6 +283,24 @@ impl PreparedStep<'_> {
         simulation.exchange_between_regions(dt);
         failure::find_unit_outside(simulation).map_or(Ok(()), Err)
     }
+}
+
+/// Gives fixed units with a path the velocities with which they follow it over a time step `dt` from `time` [s] on.
+fn drive(
+    world: &mut RigidWorld,
+    groups: &[UnitGroup],
+    start: &[BodyState],
+    [time, dt]: [f64; 2],
+) -> Result<(), RigidError> {
+    for group in groups {
+        let Some(way) = &group.way else { continue };
+        for unit in group.members.clone() {
+            let to = start[unit].position + way.displacement(time + dt);
+            let velocity = (to - world.states()[unit].position) / dt;
+            world.drive(unit, velocity)?;
+        }
+    }
+    Ok(())
 }
 
 /// Returns the state of a body after a time `dt` [s] at constant velocity and angular velocity.

@@ -6,11 +6,14 @@ use super::{
     Units,
     measures::{mean_loads::MeanLoads, water_at_impacts::WaterAtImpacts},
 };
-use crate::simulation::bodies::rigid_setup;
+use crate::simulation::{
+    bodies::rigid_setup,
+    settling::{COARSE_STEPS, LONGEST, REST_SPEED, Surroundings},
+};
 use crate::{
     case::{self, Case, UnitGroup},
     geometry::{armour_unit::ArmourUnit, axis_box::AxisBox},
-    rigid::{Load, RigidError, RigidWorld},
+    rigid::{BodyState, Load, RigidError, RigidSetup, RigidWorld},
     sph::{
         particles::{
             boundary::BoundaryParticle, fill::clear_solid, obstacle::box_particles, unit::unit_particles, water::Water,
@@ -23,17 +26,36 @@ use crate::{
 /// narrower gap has no room for water particles.
 const NARROWEST_GAP: f64 = 0.5;
 
-/// Returns the units at their start positions. `case` is the case of all regions: units collide with the end walls of
+/// Returns the units at their start positions. Armour layers first settle in the still water. `case` is the case of all regions: units collide with the end walls of
 /// the domain, not with the ends of the finest region.
 pub(super) fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, RigidError> {
     let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
-    let world = RigidWorld::new(setup)?;
+    let world = if units.groups.iter().any(|group| group.is_layer) {
+        settled(setup, units, case)?
+    } else {
+        RigidWorld::new(setup)?
+    };
     let start = world.states().to_vec();
     let (fluid_loads, mean_loads) = (vec![Load::default(); start.len()], MeanLoads::new(start.len()));
     let groups = units.groups.clone();
     let UnitGroup { members, models, .. } = &groups[case.breakage.as_ref().map_or(0, |settings| settings.group)];
     let recorded = if models.len() == 1 { members.clone() } else { members.start..members.start + 1 };
     Ok(Units { groups, recorded, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
+}
+
+/// Returns the bodies at rest with loaded contacts. A placement file has poses, but no tangential springs: without this,
+/// the units would sink into their contacts when the run releases them.
+fn settled(mut setup: RigidSetup, units: &case::Units, case: &Case) -> Result<RigidWorld, RigidError> {
+    let mut world = RigidWorld::new(setup.clone())?;
+    world.set_steps_per_period(COARSE_STEPS);
+    let around = Surroundings { units, gravity: case.fluid.gravity, water: case.still_water() };
+    around.settle(&mut world, REST_SPEED, LONGEST)?;
+    for (body, state) in setup.bodies.iter_mut().zip(world.states()) {
+        body.state = BodyState::at_rest(state.position, state.rotation);
+    }
+    let mut at_rest = RigidWorld::new(setup)?;
+    at_rest.adopt_contacts(&world);
+    Ok(at_rest)
 }
 
 /// Returns the boundary particles of a unit in body axes; in two dimensions, those of a slice of the unit. If a cuboid
