@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use super::file::{ArmourFile, ArmourOrientation, CaseFile, DryFile, UnitGroupsFile};
+use glam::DVec3;
+
+use super::file::{ArmourFile, ArmourOrientation, CaseFile, DryFile, HeapFile, UnitGroupsFile};
 use super::flume::domain::StillWater;
 use super::flume::part::Part;
 use super::flume::{ground, site::Site};
@@ -15,6 +17,10 @@ use super::units::materials::{self, GroundNames, Material};
 use super::units::{self, MAX_UNITS, Surroundings, Units};
 use super::{dry_test, flume_case};
 use crate::geometry::outline::polygon::Polygon;
+
+/// Distance between the centres of neighbouring units before they fall, divided by the largest distance of the surface of a
+/// unit from its centre [-].
+const APART: f64 = 2.02;
 
 /// Armour layers on a slope; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,17 +46,49 @@ pub struct Layers {
     pub armour: Armour,
 }
 
-/// Armour layers that `breakwater place` has to place.
+/// A heap of one group of units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Heap {
+    /// Group of the units, an index into the groups of [`LayerJob::units`].
+    pub group: usize,
+    /// Lower and upper corner of the box from which the units fall [m].
+    pub bounds: [DVec3; 2],
+    /// Number of units.
+    pub count: usize,
+    /// Seed of the random rotations.
+    pub seed: u64,
+}
+
+/// Units that have to be placed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Placing {
+    /// Layers on a slope.
+    Layers(Layers),
+    /// A heap.
+    Heap(Heap),
+}
+
+impl Placing {
+    /// Group of the units, an index into the groups of [`LayerJob::units`].
+    pub fn group(&self) -> usize {
+        match self {
+            Self::Layers(layers) => layers.group,
+            Self::Heap(heap) => heap.group,
+        }
+    }
+}
+
+/// Armour layers and heaps that `breakwater place` has to place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerJob {
     /// Title of the case.
     pub title: String,
     /// Ground and boundaries of the area in which units stand.
     pub site: Site,
-    /// The units. The groups of [`Self::layers`] have no members yet; the others are in their places.
+    /// The units. The groups of [`Self::placings`] have no members yet; the others are in their places.
     pub units: Units,
-    /// The layers, in the order in which they are placed.
-    pub layers: Vec<Layers>,
+    /// Layers and heaps, in the order in which they are placed.
+    pub placings: Vec<Placing>,
     /// Materials; other structs contain indices into this list.
     pub materials: Vec<Material>,
     /// Contact between units, and between units and the bed.
@@ -100,10 +138,30 @@ impl LayerJob {
         &self.units.groups[layers.group]
     }
 
+    /// Returns the distance between the centres of neighbouring units in the box of a heap [m]: units of any orientation do
+    /// not touch.
+    pub fn pitch(&self, heap: &Heap) -> f64 {
+        APART * self.units.groups[heap.group].reach()
+    }
+
+    /// Returns the numbers of units along the edges of the box of a heap.
+    pub fn lattice(&self, heap: &Heap) -> [usize; 3] {
+        let [low, high] = heap.bounds;
+        ((high - low) / self.pitch(heap)).to_array().map(|count| count as usize)
+    }
+
     /// Returns the slope area under layers, divided by D_n^2 [-], with the nominal diameter D_n of a unit.
     pub fn area(&self, layers: &Layers) -> f64 {
         let length: f64 = self.slope(layers).windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum();
         length * self.site.width / self.group(layers).nominal_diameter.powi(2)
+    }
+
+    /// Returns the number of units to be placed.
+    pub fn count_of(&self, placing: &Placing) -> usize {
+        match placing {
+            Placing::Layers(layers) => self.count(layers),
+            Placing::Heap(heap) => heap.count,
+        }
     }
 
     /// Returns the number of units in layers.
@@ -142,26 +200,35 @@ fn validate_job(
     check: &mut Checker,
 ) -> Option<LayerJob> {
     let before = check.count();
-    let (mut groups, mut placements, mut layers) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut groups, mut placements, mut placings) = (Vec::new(), Vec::new(), Vec::new());
     for (index, group) in file.groups().iter().enumerate() {
         check.in_section(&file.path(index), |check| {
             let unplaced = units::validate_unplaced(group, file, index, around, check);
-            match &group.armour {
-                Some(armour) => {
-                    if group.rock.is_some() && armour.orientation == ArmourOrientation::Alternating {
-                        let advice = "rocks have no upright position: leave the key out";
-                        check.reject(".armour.orientation", "\"alternating\"", "\"random\" for rocks", advice);
+            match (&group.armour, &group.heap) {
+                (None, None) => groups.extend(units::placed(group, unplaced, &mut placements, around, check)),
+                (armour, heap) => {
+                    if let Some(armour) = armour {
+                        if group.rock.is_some() && armour.orientation == ArmourOrientation::Alternating {
+                            let advice = "rocks have no upright position: leave the key out";
+                            check.reject(".armour.orientation", "\"alternating\"", "\"random\" for rocks", advice);
+                        }
+                        let armour = around.site.and_then(|site| validate(armour, site, check));
+                        placings.extend(armour.map(|armour| Placing::Layers(Layers { group: index, armour })));
                     }
-                    let armour = around.site.and_then(|site| validate(armour, site, check));
-                    layers.extend(armour.map(|armour| Layers { group: index, armour }));
+                    if let Some(heap) = heap {
+                        if armour.is_some() {
+                            check.reject(".heap", "given", "left out with `armour`", "keep one of the two keys");
+                        }
+                        let heap = around.site.and_then(|site| validate_heap(heap, index, site, check));
+                        placings.extend(heap.map(Placing::Heap));
+                    }
                     groups.extend(unplaced);
                 }
-                None => groups.extend(units::placed(group, unplaced, &mut placements, around, check)),
             }
         });
     }
-    if check.count() == before && layers.is_empty() {
-        let advice = "write \"armour\": { \"x_m\": [from, to], \"packing_density\": 1.04 }";
+    if check.count() == before && placings.is_empty() {
+        let advice = "write \"armour\": { \"x_m\": [from, to], \"packing_density\": 1.04 }, or a `heap`";
         check.reject(&format!("{}.armour", file.path(0)), "(missing)", "the armour layers to place", advice);
     }
     if check.count() > before {
@@ -169,13 +236,25 @@ fn validate_job(
     }
     let (title, site, materials) = (title.to_owned(), around.site?.clone(), around.materials.list.clone());
     let units = units::with_ground(groups, placements, around, check)?;
-    let job = LayerJob { title, site, units, layers, materials, contact: around.contact, gravity, still_water };
-    for layers in &job.layers {
-        let count = job.count(layers);
-        if !(1..=MAX_UNITS as usize).contains(&count) {
-            let path = format!("{}.armour", file.path(layers.group));
-            let advice = "change the length of the layers or the packing density";
-            check.reject(&path, format!("{count} units"), format!("1 to {MAX_UNITS} units"), advice);
+    let job = LayerJob { title, site, units, placings, materials, contact: around.contact, gravity, still_water };
+    for placing in &job.placings {
+        let (path, count) = (file.path(placing.group()), job.count_of(placing));
+        match placing {
+            Placing::Layers(_) if !(1..=MAX_UNITS as usize).contains(&count) => {
+                let advice = "change the length of the layers or the packing density";
+                let allowed = format!("1 to {MAX_UNITS} units");
+                check.reject(&format!("{path}.armour"), format!("{count} units"), allowed, advice);
+            }
+            Placing::Heap(heap) => {
+                let most = job.lattice(heap).iter().product::<usize>().min(MAX_UNITS as usize);
+                if !(1..=most).contains(&count) {
+                    let pitch = job.pitch(heap);
+                    let advice =
+                        format!("the box has room for a unit every {pitch:.3} m along each edge: make it larger");
+                    check.reject(&format!("{path}.heap.count"), count, format!("1 to {most}"), advice);
+                }
+            }
+            Placing::Layers(_) => (),
         }
     }
     (check.count() == before).then_some(job)
@@ -201,4 +280,17 @@ fn validate(file: &ArmourFile, site: &Site, check: &mut Checker) -> Option<Armou
     }
     let ArmourFile { layers, packing_density, orientation, seed, .. } = *file;
     (check.count() == before).then_some(Armour { x: file.x_m, layers, packing_density, orientation, seed })
+}
+
+fn validate_heap(file: &HeapFile, group: usize, site: &Site, check: &mut Checker) -> Option<Heap> {
+    let before = check.count();
+    let HeapFile { low_m, high_m, count, seed } = *file;
+    let advice = "the box must lie inside the domain";
+    let allowed = [site.x, [0.0, site.width], [f64::NEG_INFINITY, f64::INFINITY]];
+    for (axis, [first, last]) in allowed.into_iter().enumerate() {
+        check.number(&format!(".heap.low_m[{axis}]"), low_m[axis], at_least(first).below(last), "m", advice);
+        check.number(&format!(".heap.high_m[{axis}]"), high_m[axis], more_than(low_m[axis]).up_to(last), "m", advice);
+    }
+    let bounds = [low_m, high_m].map(DVec3::from_array);
+    (check.count() == before).then_some(Heap { group, bounds, count: count as usize, seed })
 }

@@ -1,4 +1,4 @@
-//! `breakwater place`: places the units of armour layers without water.
+//! `breakwater place`: places the units of armour layers and heaps.
 
 use std::path::{Path, PathBuf};
 
@@ -6,20 +6,21 @@ use clap::Args;
 
 use super::{CommandError, input::read};
 use crate::{
-    case::{InputKind, LayerJob},
+    case::{InputKind, LayerJob, Layers, Placing},
     output::write_atomically,
-    simulation::armour_layer::{ArmourLayers, PlacedGroup, PlacementError, place},
+    simulation::armour_layer::{ArmourLayers, Packing, PlacedGroup, PlacementError, place},
 };
 
 /// `place` warns if the overlap of two bodies at the end, divided by the height of a unit [-], exceeds this value.
 const GOOD_OVERLAP: f64 = 0.01;
 
-/// Place armour layers: lower the units of a case one by one onto the slope, without water, until they are at rest.
+/// Place armour layers and heaps: lower the units of layers one by one onto the slope, let those of a heap fall, and wait
+/// until all are at rest.
 ///
 /// The poses (positions and rotations) are written to a placement file. Cases name this file as `units.placement_file`.
 #[derive(Args)]
 pub struct PlaceArguments {
-    /// The case file; it must have the key `units.armour`.
+    /// The case file; it must have the key `units.armour` or `units.heap`.
     case: PathBuf,
     /// The placement file; default: the case file with the extension `.placement.json`.
     #[arg(long)]
@@ -41,14 +42,19 @@ impl PlaceArguments {
             let what = "exists already; add --overwrite to replace it, or choose another file with --out FILE";
             return Err(CommandError::refused(format!("{}: {what}", out.display())));
         }
-        let counts: Vec<usize> = job.layers.iter().map(|layers| job.count(layers)).collect();
+        let counts: Vec<usize> = job.placings.iter().map(|placing| job.count_of(placing)).collect();
         let (count, quiet) = (counts.iter().sum::<usize>(), self.quiet);
         if !quiet {
             eprintln!("{}", job.title);
-            for (layers, count) in job.layers.iter().zip(&counts) {
-                let (name, armour) = (&job.group(layers).name, &layers.armour);
-                let (number, density) = (armour.layers, armour.packing_density);
-                eprintln!("  {name}: {count} units in {number} layers, packing density {density}");
+            for (placing, count) in job.placings.iter().zip(&counts) {
+                let name = &job.units.groups[placing.group()].name;
+                match placing {
+                    Placing::Heap(_) => eprintln!("  {name}: heap of {count} units"),
+                    Placing::Layers(Layers { armour, .. }) => {
+                        let (number, density) = (armour.layers, armour.packing_density);
+                        eprintln!("  {name}: {count} units in {number} layers, packing density {density}");
+                    }
+                }
             }
         }
         let tell = |placed: usize, time: f64| {
@@ -65,12 +71,13 @@ impl PlaceArguments {
         text.push('\n');
         write_atomically(&out, text.as_bytes()).map_err(CommandError::failed)?;
         tell_result(&placed, &out);
-        match placed.groups.iter().find(|group| !group.is_complete()) {
+        let incomplete = |group: &PlacedGroup| Some((group.name.clone(), group.packing.filter(|p| !p.is_complete())?));
+        match placed.groups.iter().find_map(incomplete) {
             None => Ok(()),
-            Some(PlacedGroup { name, packing_density, wanted, rolled_off, .. }) => Err(CommandError::failed(format!(
-                "{}: {name}: the packing density is {packing_density:.3} instead of {wanted:.3}, and {rolled_off} units \
-                 rolled off; support the toe of the layers with fixed units or an obstacle, make the slope flatter, or ask \
-                 for a smaller packing density. The placement is in {}",
+            Some((name, Packing { density, wanted, rolled_off, .. })) => Err(CommandError::failed(format!(
+                "{}: {name}: the packing density is {density:.3} instead of {wanted:.3}, and {rolled_off} units rolled \
+                 off; support the toe of the layers with fixed units or an obstacle, make the slope flatter, or ask for a \
+                 smaller packing density. The placement is in {}",
                 self.case.display(),
                 out.display()
             ))),
@@ -79,9 +86,14 @@ impl PlaceArguments {
 }
 
 fn tell_result(placed: &ArmourLayers, out: &Path) {
-    for PlacedGroup { name, units, packing_density, rolled_off, .. } in &placed.groups {
+    for PlacedGroup { name, units, packing } in &placed.groups {
         let count = units.len();
-        println!("{name}: {count} units, packing density {packing_density:.3}, {rolled_off} units rolled off");
+        match packing {
+            None => println!("{name}: {count} units"),
+            Some(Packing { density, rolled_off, .. }) => {
+                println!("{name}: {count} units, packing density {density:.3}, {rolled_off} units rolled off");
+            }
+        }
     }
     println!(
         "  settled in {:.2} s of simulated time; {} contacts, deepest overlap {:.3} % of the height; fastest unit {:.1e} \

@@ -92,14 +92,19 @@ impl RigidWorld {
         }
     }
 
-    /// Takes springs and forces of all contacts from another world with the same bodies at the same places.
+    /// Takes springs and forces of the contacts from another world with the same bodies at the same places. Bodies that are
+    /// fixed in the other world keep their forces.
     pub fn adopt_contacts(&mut self, other: &Self) {
         for contact in &mut self.contacts {
             if let Some(same) = other.contacts.iter().find(|same| same.key == contact.key) {
                 *contact = *same;
             }
         }
-        self.contact_now.clone_from(&other.contact_now);
+        for (body, kind) in other.kind.iter().enumerate() {
+            if !other.inertias[*kind].is_fixed() {
+                self.contact_now[body] = other.contact_now[body];
+            }
+        }
         self.energy.elastic = other.energy.elastic;
     }
 

@@ -40,7 +40,7 @@ impl Inertia {
         }
     }
 
-    fn is_fixed(&self) -> bool {
+    pub(super) fn is_fixed(&self) -> bool {
         self.mass == f64::INFINITY
     }
 }

@@ -45,19 +45,18 @@ impl Surroundings<'_> {
     }
 
     /// Advances the world at least 0.05 s, until all units are slower than `speed` times sqrt(g H) [-], and at most for the
-    /// time `longest` [s].
+    /// time `longest` [s]. Returns true if all units are as slow.
     ///
     /// # Errors
     /// If the contact solver becomes unstable.
-    pub fn settle(&self, world: &mut RigidWorld, speed: f64, longest: f64) -> Result<(), RigidError> {
+    pub fn settle(&self, world: &mut RigidWorld, speed: f64, longest: f64) -> Result<bool, RigidError> {
         let slow = speed * (self.gravity * self.units.tallest()).sqrt();
         let begun = world.time();
-        while world.time() - begun < SHORTEST
-            || (fastest(world, self.units.tallest()) > slow && world.time() - begun < longest)
-        {
+        let is_slow = |world: &RigidWorld| fastest(world, self.units.tallest()) <= slow;
+        while world.time() - begun < SHORTEST || (!is_slow(world) && world.time() - begun < longest) {
             self.advance(world)?;
         }
-        Ok(())
+        Ok(is_slow(world))
     }
 
     /// Returns the buoyancy of each unit.

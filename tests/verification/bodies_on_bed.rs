@@ -1,4 +1,5 @@
-//! Fixed bodies that stand on the bed: no water passes below them, and the water presses on them as on walls.
+//! Bodies that stand on the bed, fixed, free, or on a path: no water passes below them, and the water presses on them as
+//! on walls.
 
 use breakwater::simulation::flume::Simulation;
 use glam::{DVec2, DVec3};

@@ -84,16 +84,17 @@ fn a_placed_layer_rests_and_can_be_run() {
     let job = LayerJob::from_str(&small_layer().to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
     let placed = place(&job, |_, _| ()).unwrap();
     let [layer] = &placed.groups[..] else { panic!("one group") };
+    let packing = layer.packing.unwrap();
     println!(
         "{} units, packing density {:.3}, {} rolled off, overlap {:.2e} H, kinetic energy {:.1e} of the potential energy, {} contacts",
         layer.units.len(),
-        layer.packing_density,
-        layer.rolled_off,
+        packing.density,
+        packing.rolled_off,
         placed.deepest_overlap,
         placed.unrest,
         placed.contacts
     );
-    assert!(layer.is_complete() && layer.units.len() - layer.rolled_off == job.count(&job.layers[0]));
+    assert!(packing.is_complete() && layer.units.len() - packing.rolled_off == job.count_of(&job.placings[0]));
     // Limits: overlap below 1 % of the height of a unit, kinetic energy below 1e-6 of the potential energy.
     assert!(placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
     // The layer from the placement file stays at rest. While the tangential springs form again, units move by about the
@@ -116,13 +117,42 @@ fn a_placed_layer_of_rocks_rests_and_can_be_run() {
     let job = LayerJob::from_str(&case.to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
     let placed = place(&job, |_, _| ()).unwrap();
     let rocks = &placed.groups[0];
-    println!("{} rocks, packing density {:.3}, unrest {:.1e}", rocks.units.len(), rocks.packing_density, placed.unrest);
+    let packing = rocks.packing.unwrap();
+    println!("{} rocks, packing density {:.3}, unrest {:.1e}", rocks.units.len(), packing.density, placed.unrest);
     // Limits: as for the layer of Tetrapods.
-    assert!(rocks.is_complete() && placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
+    assert!(packing.is_complete() && placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
     case["units"]["poses"] = serde_json::to_value(&placed.file("rocks", 1).poses).unwrap();
     let largest = largest_displacement(&case);
     println!("largest displacement within 0.2 s: {:.1e} D_n50", largest / 0.03);
     assert!(largest < 5e-3 * 0.03, "{largest}");
+}
+
+#[test]
+fn a_heap_of_rocks_falls_and_rests() {
+    let mut case = small_layer();
+    case["flume"]["bed_m"] = json!([[-1.0, 0.0], [0.0, 0.2], [0.1, 0.0], [2.0, 0.0]]);
+    case["units"] = json!({ "name": "rock", "shape": "rock", "rock": { "d_n50_m": 0.03, "grading": 1.4, "seed": 2 },
+        "mass_kg": 0.072, "material": "mortar",
+        "heap": { "low_m": [0.15, 0.02, 0.05], "high_m": [0.4, 0.24, 0.4], "count": 20, "seed": 5 } });
+    let job = LayerJob::from_str(&case.to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
+    let placed = place(&job, |_, _| ()).unwrap();
+    let rocks = &placed.groups[0];
+    let highest = rocks.units.iter().map(|rock| rock.position.z).fold(0.0, f64::max);
+    println!("highest centre {highest:.3} m, {} contacts, unrest {:.1e}", placed.contacts, placed.unrest);
+    // Limits: as for the layer of Tetrapods. All rocks lie on the bed or on each other, below their box.
+    assert!(rocks.units.len() == 20 && placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
+    assert!(placed.contacts >= 60 && highest < 0.15);
+    case["units"]["poses"] = serde_json::to_value(&placed.file("rocks", 1).poses).unwrap();
+    assert!(largest_displacement(&case) < 5e-3 * 0.03);
+
+    let refused = |key: &str, value: Value, expected: &str| {
+        let mut case = case.clone();
+        case["units"]["heap"][key] = value;
+        let errors = LayerJob::from_str(&case.to_string(), "test.json").unwrap_err().to_string();
+        assert!(errors.contains(expected), "{errors}");
+    };
+    refused("count", json!(1000), "units.heap.count = 1000: must be 1 to ");
+    refused("low_m", json!([0.5, 0.02, 0.05]), "units.heap.high_m[0] = 0.4: must be > 0.5");
 }
 
 #[test]

@@ -34,8 +34,8 @@ pub use groups::UnitGroupsFile;
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Scheme, SchemeDefaults, Viscosity, WallSlip};
 pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, DamageMeasure, ElevationFile, ForceFile, FrictionFile,
-    GaugeFile, LineFile, MaterialFile, Orientation, PlacedGroupFile, PlacementFile, PointFile, PoseFile, ScatterFile,
-    UnitsFile,
+    GaugeFile, HeapFile, LineFile, MaterialFile, Orientation, PlacedGroupFile, PlacementFile, PointFile, PoseFile,
+    ScatterFile, UnitsFile,
 };
 pub use output::{AtRestFile, FluidField, OutputFile, StopFile};
 pub use reference::{ReferenceFile, ReferenceWaveFile, ReferenceWaveKind, SeriesFile, SeriesRole};

@@ -57,6 +57,10 @@ pub struct UnitsFile {
     /// file. A run of this case needs the key `placement_file`, too.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub armour: Option<ArmourFile>,
+    /// A heap. `breakwater place` drops the units from a box, all at the same time, and writes a placement file. A run of
+    /// this case needs the key `placement_file`, too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heap: Option<HeapFile>,
     /// Distance between the vertical axes of neighbouring units in the row [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch_m: Option<f64>,
@@ -145,6 +149,21 @@ fn default_armour_layers() -> u32 {
     2
 }
 
+/// A heap of units that fall from a box.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HeapFile {
+    /// Lower corner [x, y, z] of the box [m].
+    pub low_m: [f64; 3],
+    /// Upper corner [x, y, z] of the box [m].
+    pub high_m: [f64; 3],
+    /// Number of units. They fill the box from below, in random orientations and without touching each other.
+    pub count: u32,
+    /// Seed of the random numbers. The same seed gives the same rotations.
+    #[serde(default)]
+    pub seed: u64,
+}
+
 /// Rotation of the units of an armour layer before they are lowered onto the slope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -194,8 +213,9 @@ pub struct PlacementFile {
 pub struct PlacedGroupFile {
     /// Name of the group in the case.
     pub name: String,
-    /// Packing density of its layers [-].
-    pub packing_density: f64,
+    /// Packing density of its layers [-]; a heap has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub packing_density: Option<f64>,
     /// Pose of each unit.
     pub poses: Vec<PoseFile>,
 }

@@ -30,8 +30,8 @@ pub struct UnitGroup {
     pub members: Range<usize>,
     /// Forces do not move fixed units.
     pub is_fixed: bool,
-    /// True if the units are armour layers that `breakwater place` has placed.
-    pub is_layer: bool,
+    /// True if `breakwater place` has placed the units, in layers or in a heap.
+    pub is_placed: bool,
     /// Path of fixed units, if they move.
     pub way: Option<Way>,
     /// In two dimensions, width of a unit / thickness of the particle layer [-]; 1 in three dimensions.

@@ -171,6 +171,9 @@ pub(super) fn placed(
 ) -> Option<UnitGroup> {
     let poses = place(file, unplaced.as_ref(), around, check);
     let (unplaced, poses) = (unplaced?, poses?);
+    if let (Some(way), Some(site)) = (&unplaced.way, around.site) {
+        check_way(way, &poses, site, check);
+    }
     let slices = around.site.map_or(1.0, |site| planar::slices(unplaced.shape(), site));
     let members = placements.len()..placements.len() + poses.len();
     placements.extend(poses);
@@ -234,12 +237,30 @@ pub(super) fn validate_unplaced(
         mass: file.mass_kg,
         members: 0..0,
         is_fixed: file.fixed,
-        is_layer: file.armour.is_some(),
+        is_placed: file.armour.is_some() || file.heap.is_some(),
         way,
         slices: 1.0,
         limits: limits?,
         material: material?,
     })
+}
+
+/// Checks that the centres of units stay in the domain on their path.
+fn check_way(way: &Way, poses: &[UnitPose], site: &Site, check: &mut Checker) {
+    let [x0, x1] = site.x;
+    for (row, by) in way.places().enumerate() {
+        if site.sides == Sides::TwoDimensional && by.y != 0.0 {
+            check.reject(&format!(".way[{row}]"), by.y, "0 m across the flume", "units move in the plane of the flume");
+        }
+        let leaves = |pose: &UnitPose| {
+            let DVec3 { x, y, .. } = pose.centre + by;
+            !(x0..=x1).contains(&x) || (site.sides == Sides::Walls && !(0.0..=site.width).contains(&y))
+        };
+        if poses.iter().any(leaves) {
+            let advice = "the centres of all units must stay in the domain";
+            check.reject(&format!(".way[{row}]"), format!("{by} m"), "a displacement inside the domain", advice);
+        }
+    }
 }
 
 /// Returns the path of fixed units.
@@ -270,9 +291,9 @@ fn place(
 ) -> Option<Vec<UnitPose>> {
     let shape = group.map(UnitGroup::shape);
     let posed = file.poses.is_some() || file.placement_file.is_some();
-    if file.armour.is_some() && !posed {
+    if (file.armour.is_some() || file.heap.is_some()) && !posed {
         check.reject(
-            ".armour",
+            if file.armour.is_some() { ".armour" } else { ".heap" },
             "{ ... }",
             "accompanied by `poses` or a `placement_file`",
             "run `breakwater place` on the case and add the `placement_file` that it writes",

@@ -38,6 +38,16 @@ impl Way {
         at(after - 1) + share * (at(after) - at(after - 1))
     }
 
+    /// Time of the last row [s].
+    pub fn end(&self) -> f64 {
+        self.0[self.0.len() - 1][0]
+    }
+
+    /// Displacement in each row [m].
+    pub(super) fn places(&self) -> impl Iterator<Item = DVec3> {
+        self.0.iter().map(|row| DVec3::new(row[1], row[2], row[3]))
+    }
+
     /// Time of the first row [s].
     pub fn begin(&self) -> f64 {
         self.0[0][0]

@@ -15,7 +15,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::{
-    case::{LayerJob, Layers, PlacedGroupFile, PlacementFile, PoseFile, group},
+    case::{Heap, LayerJob, Layers, PlacedGroupFile, PlacementFile, Placing, PoseFile, group},
     random::SplitMix64,
     rigid::{BodyState, RigidError, RigidWorld, STEPS_PER_PERIOD},
     simulation::{
@@ -47,7 +47,7 @@ pub enum PlacementError {
     /// There is no room for a unit.
     #[error(
         "unit {unit} cannot be placed at x = {x:.3}, y = {y:.3} m: there is no room; reduce the packing density or \
-         move the walls"
+         move the walls or the box of the heap"
     )]
     NoRoom {
         /// Number of the unit, from 1.
@@ -88,20 +88,34 @@ pub struct PlacedGroup {
     pub name: String,
     /// Poses and velocities of the units at the end.
     pub units: Vec<BodyState>,
+    /// Packing of layers; `None` for a heap.
+    pub packing: Option<Packing>,
+}
+
+/// Packing of layers that have settled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Packing {
     /// Number of units that left the slope: at the end, their centre is seaward or shoreward of the covered slope.
     pub rolled_off: usize,
     /// Packing density of the units that stayed on the slope: their number divided by A / D_n^2 [-].
-    pub packing_density: f64,
+    pub density: f64,
+    /// Packing density of one unit [-].
+    pub of_one: f64,
     /// Packing density of the job [-].
     pub wanted: f64,
 }
 
-impl PlacedGroup {
+impl Packing {
     /// Returns true if the packing density is that of the job within 3 %, or within half a unit.
     pub fn is_complete(&self) -> bool {
-        let stayed = (self.units.len() - self.rolled_off) as f64;
-        let of_one = self.packing_density / stayed.max(1.0);
-        (self.packing_density - self.wanted).abs() <= (TOLERANCE * self.wanted).max(0.5 * of_one)
+        (self.density - self.wanted).abs() <= (TOLERANCE * self.wanted).max(0.5 * self.of_one)
+    }
+}
+
+impl PlacedGroup {
+    /// Returns the packing density of layers [-].
+    fn density(&self) -> Option<f64> {
+        self.packing.map(|packing| packing.density)
     }
 
     fn poses(&self) -> Vec<PoseFile> {
@@ -118,12 +132,12 @@ impl ArmourLayers {
     pub fn file(&self, title: &str, all: usize) -> PlacementFile {
         let title = title.to_owned();
         if let ([group], 1) = (&self.groups[..], all) {
-            let packing_density = Some(group.packing_density);
+            let packing_density = group.density();
             return PlacementFile { title, packing_density, poses: group.poses(), groups: Vec::new() };
         }
         let of_group = |group: &PlacedGroup| PlacedGroupFile {
             name: group.name.clone(),
-            packing_density: group.packing_density,
+            packing_density: group.density(),
             poses: group.poses(),
         };
         PlacementFile {
@@ -152,15 +166,20 @@ fn place_layers(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<Ar
     let mut yard = Yard { job, potential: world.energy().potential, world, first, begin: first, around };
     yard.world.set_steps_per_period(COARSE_STEPS);
     let mut members = Vec::new();
-    for layers in &job.layers {
+    for placing in &job.placings {
         yard.begin = yard.world.states().len();
-        for row in rows(job, layers) {
-            for slot in &row {
-                yard.lower(layers, slot, &mut report)?;
+        match placing {
+            Placing::Layers(layers) => {
+                for row in rows(job, layers) {
+                    for slot in &row {
+                        yard.lower(layers, slot, &mut report)?;
+                    }
+                    yard.settle_row(layers)?;
+                }
+                yard.replace_lost(layers, &mut report)?;
             }
-            yard.settle_row(layers)?;
+            Placing::Heap(heap) => yard.drop_heap(heap, &mut report)?,
         }
-        yard.replace_lost(layers, &mut report)?;
         members.push(yard.begin..yard.world.states().len());
     }
     yard.settle(REST_SPEED, LONGEST)?;
@@ -170,19 +189,21 @@ fn place_layers(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<Ar
     yard.settle(REST_SPEED, LONGEST)?;
     let Yard { world, potential, .. } = yard;
     let energy = world.energy();
-    let group = |(layers, members): (&Layers, Range<usize>)| {
+    let group = |(placing, members): (&Placing, Range<usize>)| {
         let units = world.states()[members].to_vec();
-        let rolled_off = units.iter().filter(|unit| !is_on_slope(layers, unit)).count();
-        PlacedGroup {
-            name: job.group(layers).name.clone(),
-            packing_density: (units.len() - rolled_off) as f64 / job.area(layers),
-            wanted: layers.armour.packing_density,
-            rolled_off,
-            units,
-        }
+        let packing = match placing {
+            Placing::Layers(layers) => {
+                let rolled_off = units.iter().filter(|unit| !is_on_slope(layers, unit)).count();
+                let of_one = 1.0 / job.area(layers);
+                let density = (units.len() - rolled_off) as f64 * of_one;
+                Some(Packing { rolled_off, density, of_one, wanted: layers.armour.packing_density })
+            }
+            Placing::Heap(_) => None,
+        };
+        PlacedGroup { name: job.units.groups[placing.group()].name.clone(), units, packing }
     };
     Ok(ArmourLayers {
-        groups: job.layers.iter().zip(members).map(group).collect(),
+        groups: job.placings.iter().zip(members).map(group).collect(),
         deepest_overlap: world.deepest_overlap() / job.units.tallest(),
         unrest: energy.kinetic / (potential - energy.potential).max(f64::MIN_POSITIVE),
         fastest: fastest(&world, job.units.tallest()),
@@ -212,6 +233,33 @@ struct Yard<'a> {
 }
 
 impl Yard<'_> {
+    /// Adds the units of a heap in their box, layer by layer, and lets all of them fall.
+    fn drop_heap(&mut self, heap: &Heap, report: &mut impl FnMut(usize, f64)) -> Result<(), PlacementError> {
+        let [along, across, _] = self.job.lattice(heap);
+        let pitch = self.job.pitch(heap);
+        let mut random = SplitMix64::new(heap.seed);
+        for number in 0..heap.count {
+            let place = [number % along, number / along % across, number / (along * across)].map(|k| k as f64 + 0.5);
+            let at = heap.bounds[0] + pitch * DVec3::from_array(place);
+            let (unit, kind, mass) = self.next(heap.group);
+            let state = BodyState::at_rest(at, random.next_rotation());
+            if self.world.overlap_at(kind, at, state.rotation) > 0.0 {
+                return Err(PlacementError::NoRoom { unit, x: at.x, y: at.y });
+            }
+            self.release(kind, mass, state);
+            report(unit, self.world.time());
+        }
+        self.settle(ROUND_SPEED, LONGEST)?;
+        Ok(())
+    }
+
+    /// Returns the number of the next unit, from 1, its kind, and its mass [kg].
+    fn next(&self, group: usize) -> (usize, usize, f64) {
+        let (groups, count) = (&self.job.units.groups, self.world.states().len());
+        let model = groups[group].model_of(count - self.begin);
+        (count + 1 - self.first, group::first_model(groups, group) + model, groups[group].models[model].mass)
+    }
+
     /// Lowers a unit until it touches, and releases it.
     fn lower(
         &mut self,
@@ -221,17 +269,20 @@ impl Yard<'_> {
     ) -> Result<(), PlacementError> {
         let Slot { x, y, rotation } = *slot;
         let (site, group) = (&self.job.site, self.job.group(layers));
-        let unit = self.world.states().len() + 1 - self.first;
+        let (unit, kind, mass) = self.next(layers.group);
         let from = DVec3::new(x, y, self.highest(x) + 2.0 * self.job.units.tallest());
         let ground = site.level(x, y.rem_euclid(site.width));
-        let model = group.model_of(self.world.states().len() - self.begin);
-        let kind = group::first_model(&self.job.units.groups, layers.group) + model;
         let state = lowered(&self.world, kind, from, rotation, ground, group.height())
             .ok_or(PlacementError::NoRoom { unit, x, y })?;
-        self.potential += group.models[model].mass * self.job.gravity * state.position.z;
-        self.world.add(kind, state);
+        self.release(kind, mass, state);
         report(unit, self.world.time());
         Ok(())
+    }
+
+    /// Adds a unit at rest.
+    fn release(&mut self, kind: usize, mass: f64, state: BodyState) {
+        self.potential += mass * self.job.gravity * state.position.z;
+        self.world.add(kind, state);
     }
 
     /// Returns the level of the highest unit centre, or that of the ground at `x` if the ground is higher [m].
@@ -253,7 +304,7 @@ impl Yard<'_> {
     }
 
     /// Waits until all units are slower than `speed` times sqrt(g H) [-], at most for the time `longest` [s].
-    fn settle(&mut self, speed: f64, longest: f64) -> Result<(), RigidError> {
+    fn settle(&mut self, speed: f64, longest: f64) -> Result<bool, RigidError> {
         self.around.settle(&mut self.world, speed, longest)
     }
 

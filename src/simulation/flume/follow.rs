@@ -64,7 +64,7 @@ impl Simulation {
     /// # Errors
     /// If the regions cannot be set up.
     pub fn move_regions(&mut self, moved: [f64; 2]) -> Result<(), SetupError> {
-        let mut new = Self::in_regions(&Device::Cpu, self.case.clone(), self.flume.clone(), self.start, moved)?;
+        let mut new = Self::in_regions(&Device::Cpu, self.case.clone(), self.flume.clone(), self.start, moved, false)?;
         let old: Vec<&Self> = self.regions().collect();
         new.for_each_region(|number, region| {
             let now = old[number];

@@ -20,7 +20,7 @@ use super::{
     },
 };
 use crate::{
-    case::{self, Case, Part, PartShape, Region, group},
+    case::{self, Case, Part, PartShape, Region, Way, group},
     geometry::{axis_box::AxisBox, outline::Outline, profile::Profile},
     rigid::RigidError,
     sph::{
@@ -97,7 +97,7 @@ impl Simulation {
     pub fn on(device: &Device, case: Arc<Case>) -> Result<Self, SetupError> {
         let flume = run_flume(&case)?.map(Arc::new);
         let start = particle_start(&case, flume.as_deref());
-        Self::in_regions(device, case, flume, start, [0.0; 2])
+        Self::in_regions(device, case, flume, start, [0.0; 2], true)
     }
 
     /// Sets up the simulation as [`Self::on`]; the particles start at the flume time `start` [s], and the ends of the
@@ -109,24 +109,29 @@ impl Simulation {
         moved: [f64; 2],
     ) -> Result<Self, SetupError> {
         let flume = run_flume(&case)?.map(Arc::new);
-        Self::in_regions(device, case, flume, start, moved)
+        Self::in_regions(device, case, flume, start, moved, true)
     }
 
-    /// Sets up the simulation as [`Self::starting_at`], with the record of the flume model.
+    /// Sets up the simulation as [`Self::starting_at`], with the record of the flume model. Placed units settle first if
+    /// `settles` is true.
     pub(super) fn in_regions(
         device: &Device,
         case: Arc<Case>,
         flume: Option<Arc<FlumeRecord>>,
         start: f64,
         moved: [f64; 2],
+        settles: bool,
     ) -> Result<Self, SetupError> {
         check_times(&case, start)?;
         let regions = Region::moved(&case.domain.regions, moved);
         let region = |number: usize| -> Result<Self, SetupError> {
             let of_region = Arc::new(case.of_region(&regions[number]));
             let buffers = Buffer::of_region(&regions[number], &regions, &of_region);
-            let units = of_region.units.as_ref().map(|units| set_up_units(&case, units)).transpose()?;
-            Self::of_region(device, of_region, flume.clone(), start, number as u32, buffers, units)
+            let units = of_region.units.as_ref().map(|units| set_up_units(&case, units, settles)).transpose()?;
+            let (units, warning) = units.unzip();
+            let mut region = Self::of_region(device, of_region, flume.clone(), start, number as u32, buffers, units)?;
+            region.statistics.warnings.extend(warning.flatten());
+            Ok(region)
         };
         let mut simulation = region(0)?;
         simulation.coarse = (1..regions.len()).map(region).collect::<Result<_, _>>()?;
@@ -180,6 +185,8 @@ impl Simulation {
 
         let shoreward = units.iter().flat_map(Units::states).map(|state| state.position.x).reduce(f64::max);
         let passing_time = shoreward.map_or(0.0, |x| passing_time(&case, flume.as_deref(), start, x));
+        let ways = units.iter().flat_map(|units| &units.groups).filter_map(|group| group.way.as_ref());
+        let passing_time = ways.map(Way::end).fold(passing_time, f64::max);
         let [low, high] = bounds(&case, reach);
         let allowed = [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)];
         let next_id = number * IDS_PER_REGION + water.len() as u32;

@@ -57,8 +57,8 @@ impl StandingCuboids {
         }
     }
 
-    /// Returns the particles of bed and walls below the closed faces of a cuboid, with vectors to its foot. They are at
-    /// most `gap` [m] away from these faces.
+    /// Returns the particles of bed and walls below the closed faces of a cuboid, with vectors from their surface points to
+    /// its foot. The surface points are at most `gap` [m] away from these faces.
     fn covered(
         &self,
         state: &BodyState,

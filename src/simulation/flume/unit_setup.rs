@@ -11,7 +11,7 @@ use crate::simulation::{
     settling::{COARSE_STEPS, LONGEST, REST_SPEED, Surroundings},
 };
 use crate::{
-    case::{self, Case, UnitGroup},
+    case::{self, Case, UnitGroup, group},
     geometry::{armour_unit::ArmourUnit, axis_box::AxisBox},
     rigid::{BodyState, Load, RigidError, RigidSetup, RigidWorld},
     sph::{
@@ -26,36 +26,62 @@ use crate::{
 /// narrower gap has no room for water particles.
 const NARROWEST_GAP: f64 = 0.5;
 
-/// Returns the units at their start positions. Armour layers first settle in the still water. `case` is the case of all regions: units collide with the end walls of
-/// the domain, not with the ends of the finest region.
-pub(super) fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, RigidError> {
+/// Returns the units at their start positions, and a warning if placed units do not stay there. `case` is the case of all
+/// regions: units collide with the end walls of the domain, not with the ends of the finest region. Placed units settle
+/// first if `settles` is true.
+pub(super) fn set_up_units(
+    case: &Case,
+    units: &case::Units,
+    settles: bool,
+) -> Result<(Units, Option<String>), RigidError> {
     let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
-    let world = if units.groups.iter().any(|group| group.is_layer) {
+    let (world, warning) = if settles && units.groups.iter().any(|group| group.is_placed) {
         settled(setup, units, case)?
     } else {
-        RigidWorld::new(setup)?
+        (RigidWorld::new(setup)?, None)
     };
     let start = world.states().to_vec();
     let (fluid_loads, mean_loads) = (vec![Load::default(); start.len()], MeanLoads::new(start.len()));
     let groups = units.groups.clone();
     let UnitGroup { members, models, .. } = &groups[case.breakage.as_ref().map_or(0, |settings| settings.group)];
     let recorded = if models.len() == 1 { members.clone() } else { members.start..members.start + 1 };
-    Ok(Units { groups, recorded, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
+    let water_at_impacts = WaterAtImpacts::default();
+    Ok((Units { groups, recorded, world, start, fluid_loads, mean_loads, water_at_impacts }, warning))
 }
 
-/// Returns the bodies at rest with loaded contacts. A placement file has poses, but no tangential springs: without this,
-/// the units would sink into their contacts when the run releases them.
-fn settled(mut setup: RigidSetup, units: &case::Units, case: &Case) -> Result<RigidWorld, RigidError> {
-    let mut world = RigidWorld::new(setup.clone())?;
+/// Largest way of a placed unit while it settles before a run, divided by the height of the highest unit [-].
+const FURTHEST: f64 = 0.01;
+
+/// Lets placed units settle, and returns all bodies at rest with loaded contacts. A placement file has poses, but no
+/// tangential springs: without this, the units would sink into their contacts when the run releases them. If they do not
+/// come to rest near their poses, they keep these, and the result has a warning.
+fn settled(setup: RigidSetup, units: &case::Units, case: &Case) -> Result<(RigidWorld, Option<String>), RigidError> {
+    let mut held = setup.clone();
+    for (kind, (group, _)) in held.kinds.iter_mut().zip(group::models(&units.groups)) {
+        kind.is_fixed |= !group.is_placed;
+    }
+    let mut world = RigidWorld::new(held)?;
     world.set_steps_per_period(COARSE_STEPS);
     let around = Surroundings { units, gravity: case.fluid.gravity, water: case.still_water() };
-    around.settle(&mut world, REST_SPEED, LONGEST)?;
-    for (body, state) in setup.bodies.iter_mut().zip(world.states()) {
+    let is_at_rest = around.settle(&mut world, REST_SPEED, LONGEST)?;
+    let ways = world.states().iter().zip(&setup.bodies).map(|(now, body)| now.position.distance(body.state.position));
+    let furthest = ways.fold(0.0, f64::max);
+    if !is_at_rest || furthest > FURTHEST * units.tallest() {
+        let warning = format!(
+            "units with `armour` or `heap`: they do not stay in their poses in still water; a unit moves by {:.1} mm before \
+             the run starts. The run starts from the poses of the case; place the units again with its friction and water \
+             level",
+            1e3 * furthest
+        );
+        return Ok((RigidWorld::new(setup)?, Some(warning)));
+    }
+    let mut loaded = setup;
+    for (body, state) in loaded.bodies.iter_mut().zip(world.states()) {
         body.state = BodyState::at_rest(state.position, state.rotation);
     }
-    let mut at_rest = RigidWorld::new(setup)?;
+    let mut at_rest = RigidWorld::new(loaded)?;
     at_rest.adopt_contacts(&world);
-    Ok(at_rest)
+    Ok((at_rest, None))
 }
 
 /// Returns the boundary particles of a unit in body axes; in two dimensions, those of a slice of the unit. If a cuboid

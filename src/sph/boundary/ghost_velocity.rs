@@ -89,8 +89,8 @@ impl GhostVelocities {
 
 /// Returns the weights a and b of the velocity sum, including the constant factors of W and g; `None` if the node is
 /// dry. If the trust in the fitted gradient is 0, the sum is the weighted mean of the water velocities; if it is 1, the
-/// sum is the solution of the four equations. `to_surface` [m] is half the vector from the boundary particle to the
-/// node.
+/// sum is the solution of the four equations. `to_surface` [m] is the vector from the boundary particle to its surface
+/// point.
 fn node_weights(sums: &NodeSums, parameters: &Parameters, to_surface: DVec3) -> Option<[f32; 4]> {
     let occupied = f64::from(sums.value[0]);
     if occupied < DRY_LIMIT {

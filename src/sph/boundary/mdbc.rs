@@ -54,8 +54,8 @@ pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 /// beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
 pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 
-/// Longest horizontal way from the surface point of a boundary particle to its ghost node [h]. Only particles deep below a
-/// standing body are further from their surface point.
+/// Longest horizontal way from the surface point of a boundary particle to its ghost node [h]. Only particles deep inside
+/// or below a wide body are further from their surface point.
 const LONGEST_WAY: f64 = 3.0;
 
 /// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
@@ -221,8 +221,8 @@ fn beyond(to_surface: DVec3, h: f64) -> DVec3 {
 }
 
 impl NodeSums {
-    /// Returns the density of the boundary particle [kg/m3]; `to_surface` [m] is half the vector from the particle to
-    /// this node.
+    /// Returns the density of the boundary particle [kg/m3]; `to_surface` [m] is the vector from the particle to its surface
+    /// point.
     fn density_at(&self, parameters: &Parameters, to_surface: DVec3) -> f64 {
         let rho0 = parameters.tait.rho0;
         let occupied = f64::from(self.value[0]);
@@ -249,7 +249,7 @@ impl NodeSums {
     }
 
     /// Returns the trust in the fitted gradient, from 0 (only the fallback) to 1 (only the four equations);
-    /// `to_surface` [m] is half the vector from the boundary particle to this node.
+    /// `to_surface` [m] is the vector from the boundary particle to its surface point.
     pub(super) fn trust(&self, to_surface: DVec3) -> f64 {
         let [occupied, x, y, z] = self.value.map(f64::from);
         let [xx, yy, zz, xy, xz, yz] = self.second.map(f64::from);

@@ -196,13 +196,13 @@ impl Boundary {
         self.standing[unit] = bounds;
     }
 
-    /// Gives these wall particles new surface vectors [m], and all other wall particles their own ones.
+    /// Adds vectors [m] to the own surface vectors of these wall particles. All other wall particles have their own ones.
     pub fn cover_walls(&mut self, covered: impl Iterator<Item = (usize, DVec3)>) {
         for particle in self.covered.drain(..) {
             self.to_surface[particle] = self.anchor_to_surface[particle];
         }
-        for (particle, to_surface) in covered {
-            self.to_surface[particle] = to_surface;
+        for (particle, further) in covered {
+            self.to_surface[particle] = self.anchor_to_surface[particle] + further;
             self.covered.push(particle);
             let Range { start, end } = self.ever_covered;
             let is_first = start == end;
@@ -226,6 +226,23 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
+
+    #[test]
+    fn covered_wall_particles_have_longer_vectors_until_they_are_free_again() {
+        let wall = |depth: f64| BoundaryParticle {
+            position: DVec3::NEG_Z * depth,
+            to_surface: DVec3::Z * depth,
+            volume: 1.0,
+            mirroring: Mirroring::Normal,
+        };
+        let mut boundary = Boundary::new(&[wall(0.5), wall(1.5)], &[], &[], 1000.0);
+        boundary.cover_walls([(1, DVec3::X)].into_iter());
+        assert_eq!(boundary.to_surface, [DVec3::Z * 0.5, DVec3::new(1.0, 0.0, 1.5)]);
+        assert_eq!(boundary.ever_covered(), 1..2);
+        boundary.cover_walls([(0, DVec3::NEG_X)].into_iter());
+        assert_eq!(boundary.to_surface, [DVec3::new(-1.0, 0.0, 0.5), DVec3::Z * 1.5]);
+        assert_eq!(boundary.ever_covered(), 0..2);
+    }
 
     #[test]
     fn unit_particles_move_as_a_rigid_body() {

@@ -152,3 +152,37 @@ fn a_fixed_body_carries_others_and_does_not_move() {
     assert!((world.states()[2].position.z - 0.08).abs() < 1e-4);
     assert!(world.energy().kinetic < 1e-9, "{:?}", world.energy());
 }
+
+#[test]
+fn a_driven_cube_pushes_another_one_with_its_friction_and_supplies_the_energy() {
+    let (friction, speed) = (0.35, 0.05);
+    let at = |x: f64| BodyState::at_rest(DVec3::new(x, 0.0, 0.02 - 1e-6), DQuat::IDENTITY);
+    let bodies = vec![Body { kind: 1, state: at(0.0) }, Body { kind: 2, state: at(-0.0405) }];
+    let mut setup = two_kinds(bodies, 0.5, friction);
+    setup.kinds.push(BodyKind { is_fixed: true, ..setup.kinds[1].clone() });
+    let mut world = RigidWorld::new(setup).unwrap();
+    assert!(world.drive(0, DVec3::X).is_err());
+    run(&mut world, 0.2, 1e-4);
+    let before = total_energy(&world);
+    world.drive(1, speed * DVec3::X).unwrap();
+    let (mut push, mut count) = (0.0, 0.0);
+    for step in 0..5000 {
+        run(&mut world, 1e-4, 1e-4);
+        if step >= 2500 {
+            (push, count) = (push - world.contact_loads()[1].force.x, count + 1.0);
+        }
+    }
+    let [free, driven] = [world.states()[0], world.states()[1]];
+    let work = world.energy().load_work;
+    let weight = friction * 0.1 * G;
+    println!(
+        "push {:.4} of the friction, speed {:.5} m/s, work {work:.5} J, energy changes by {:.1e} J",
+        push / count / weight,
+        free.velocity.x,
+        total_energy(&world) - before
+    );
+    assert!((driven.position.x - (speed * 0.5 - 0.0405)).abs() < 1e-9);
+    // Limits: 1 % of force and speed, 0.1 % of the work (the contact begins with an impact).
+    assert!((push / count / weight - 1.0).abs() < 0.01 && (free.velocity.x / speed - 1.0).abs() < 0.01);
+    assert!(work > 0.9 * weight * speed * 0.49 && (total_energy(&world) - before).abs() < 1e-3 * work);
+}

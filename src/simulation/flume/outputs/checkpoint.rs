@@ -23,12 +23,12 @@ use crate::{
         FluidAtPeak, OutputError,
         state_file::{Hdf5Result, read_state, read_vectors, write_column, write_state, write_vectors},
     },
-    rigid::{Load, RigidSnapshot},
+    rigid::{BodyState, Load, RigidSnapshot},
     sph::{device::Device, particles::water::Water},
 };
 
 /// Version of the file layout; increased when the layout changes.
-const VERSION: u32 = 23;
+const VERSION: u32 = 24;
 
 /// The state of a run without the arrays.
 #[derive(Serialize, Deserialize)]
@@ -44,6 +44,8 @@ struct Scalars {
     statistics: Statistics,
     recorder: RecorderState,
     rigid: Option<RigidSnapshot>,
+    /// Poses of the units from which displacements count.
+    unit_start: Vec<BodyState>,
     fluid_loads: Vec<Load>,
     mean_loads: MeanLoads,
     /// How far the ends of the finest region have moved [m].
@@ -115,6 +117,7 @@ impl Checkpoint {
             statistics: simulation.statistics.clone(),
             recorder: recorder.clone(),
             rigid: units.map(|units| units.world.snapshot()),
+            unit_start: units.map_or_else(Vec::new, |units| units.start.clone()),
             fluid_loads: units.map_or_else(Vec::new, |units| units.fluid_loads.clone()),
             mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
             moved: simulation.moved,
@@ -219,6 +222,7 @@ impl Checkpoint {
         }
         if let (Some(units), Some(snapshot)) = (&mut simulation.units, &scalars.rigid) {
             units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;
+            units.start = scalars.unit_start;
             units.fluid_loads = scalars.fluid_loads;
             units.mean_loads = scalars.mean_loads;
             let points = simulation.boundary.positions_in_unit(units.recorded.start).count();
