@@ -18,8 +18,8 @@ use super::units::{self, MAX_UNITS, Surroundings, Units};
 use super::{dry_test, flume_case};
 use crate::geometry::outline::polygon::Polygon;
 
-/// Distance between the centres of neighbouring units before they fall, divided by the largest distance of the surface of a
-/// unit from its centre [-].
+/// Distance between the centres of neighbouring units before they fall, divided by the largest distance of the surface
+/// of a unit from its centre [-].
 const APART: f64 = 2.02;
 
 /// Armour layers on a slope; SI units.
@@ -138,8 +138,8 @@ impl LayerJob {
         &self.units.groups[layers.group]
     }
 
-    /// Returns the distance between the centres of neighbouring units in the box of a heap [m]: units of any orientation do
-    /// not touch.
+    /// Returns the distance between the centres of neighbouring units in the box of a heap [m]: units of any
+    /// orientation do not touch.
     pub fn pitch(&self, heap: &Heap) -> f64 {
         APART * self.units.groups[heap.group].reach()
     }

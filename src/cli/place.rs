@@ -14,8 +14,8 @@ use crate::{
 /// `place` warns if the overlap of two bodies at the end, divided by the height of a unit [-], exceeds this value.
 const GOOD_OVERLAP: f64 = 0.01;
 
-/// Place armour layers and heaps: lower the units of layers one by one onto the slope, let those of a heap fall, and wait
-/// until all are at rest.
+/// Place armour layers and heaps: lower the units of layers one by one onto the slope, let those of a heap fall, and
+/// wait until all are at rest.
 ///
 /// The poses (positions and rotations) are written to a placement file. Cases name this file as `units.placement_file`.
 #[derive(Args)]

@@ -167,8 +167,8 @@ impl Solid {
         Some((hit.time_of_impact, hit.normal.dot(direction).abs()))
     }
 
-    /// Returns volume [m3] and centroid [m] of the part of the body below the `level` [m] along the unit vector `up`. The
-    /// centroid of nothing is the origin.
+    /// Returns volume [m3] and centroid [m] of the part of the body below the `level` [m] along the unit vector `up`.
+    /// The centroid of nothing is the origin.
     pub fn below(&self, up: DVec3, level: f64) -> (f64, DVec3) {
         let plane = HalfSpace { normal: up, offset: level };
         // Tetrahedra between the surface and a point of the plane. The cut in the plane adds none.

@@ -92,8 +92,8 @@ impl RigidWorld {
         }
     }
 
-    /// Takes springs and forces of the contacts from another world with the same bodies at the same places. Bodies that are
-    /// fixed in the other world keep their forces.
+    /// Takes springs and forces of the contacts from another world with the same bodies at the same places. Bodies that
+    /// are fixed in the other world keep their forces.
     pub fn adopt_contacts(&mut self, other: &Self) {
         for contact in &mut self.contacts {
             if let Some(same) = other.contacts.iter().find(|same| same.key == contact.key) {

@@ -44,8 +44,8 @@ impl Surroundings<'_> {
         world.advance(CHECK_INTERVAL, &loads)
     }
 
-    /// Advances the world at least 0.05 s, until all units are slower than `speed` times sqrt(g H) [-], and at most for the
-    /// time `longest` [s]. Returns true if all units are as slow.
+    /// Advances the world at least 0.05 s, until all units are slower than `speed` times sqrt(g H) [-], and at most for
+    /// the time `longest` [s]. Returns true if all units are as slow.
     ///
     /// # Errors
     /// If the contact solver becomes unstable.

@@ -1,5 +1,5 @@
-//! Bodies that stand on the bed, fixed, free, or on a path: no water passes below them, and the water presses on them as
-//! on walls.
+//! Bodies that stand on the bed, fixed, free, or on a path: no water passes below them, and the water presses on them
+//! as on walls.
 
 use breakwater::simulation::flume::Simulation;
 use glam::{DVec2, DVec3};
@@ -31,8 +31,8 @@ fn tank() -> Value {
     })
 }
 
-/// Runs a second of the tank. Returns the number of particles behind the wall, and the mean horizontal force on the wall
-/// [N] and its moment about the middle of its foot [N m] in the second half. `load` returns force and moment.
+/// Runs a second of the tank. Returns the number of particles behind the wall, and the mean horizontal force on the
+/// wall [N] and its moment about the middle of its foot [N m] in the second half. `load` returns force and moment.
 fn run(tank: &mut Simulation, load: impl Fn(&Simulation) -> [f64; 2] + Sync) -> (usize, [f64; 2]) {
     let (mut sum, mut count) = ([0.0; 2], 0.0);
     run_until(tank, 1.0, |now| {
@@ -46,8 +46,8 @@ fn run(tank: &mut Simulation, load: impl Fn(&Simulation) -> [f64; 2] + Sync) -> 
     (behind, sum.map(|sum| sum / count))
 }
 
-/// Returns force and moment divided by their hydrostatic values [-]. The pressure in the gap below the block is that of the
-/// nearest foot: half of the block has the pressure at the front foot, and the other half has none.
+/// Returns force and moment divided by their hydrostatic values [-]. The pressure in the gap below the block is that of
+/// the nearest foot: half of the block has the pressure at the front foot, and the other half has none.
 fn relative([force, moment]: [f64; 2]) -> [f64; 2] {
     let pressure = RHO0 * GRAVITY * DEPTH;
     // The density increases downwards: rho = rho0 (1 + g d / c^2) at the depth d.
@@ -56,8 +56,8 @@ fn relative([force, moment]: [f64; 2]) -> [f64; 2] {
     [force / exact, moment / (exact * DEPTH / 3.0 + pressure * WIDTH * 0.5 * half * half)]
 }
 
-/// Runs the tank with a block, which has these further keys. Checks that no particle passes, and returns the largest way of
-/// the block [m].
+/// Runs the tank with a block, which has these further keys. Checks that no particle passes, and returns the largest
+/// way of the block [m].
 fn check_block(keys: &Value) -> f64 {
     let mut case = tank();
     case["units"] = json!({ "shape": "cuboid", "size_m": [WALL[1] - WALL[0], WIDTH, 0.25], "mass_kg": 6.0,
@@ -114,13 +114,13 @@ fn a_block_that_follows_a_path_makes_the_wave_of_a_piston() {
     run_until(&mut tank, end, |now| {
         let time = now.time;
         let level = now.sampler().unwrap().surface(DVec2::new(0.9, 0.5 * dp), 0.0);
-        // The front of the wave passes 0.4 s after the start and reaches the end of the tank after 2.4 s. It is followed by
-        // waves, which are averaged.
+        // The front of the wave passes 0.4 s after the start and reaches the end of the tank after 2.4 s. It is
+        // followed by waves, which are averaged.
         levels.extend(level.filter(|_| time > 1.0));
     });
     let rise = levels.iter().sum::<f64>() / levels.len() as f64 - DEPTH;
-    // A piston with the speed u drives a wave with the celerity c = sqrt(g D (D + d) / (2 d)) into water of the depth d;
-    // D is the depth behind the front, and u D = c (D - d) (Stoker 1957, section 10.6).
+    // A piston with the speed u drives a wave with the celerity c = sqrt(g D (D + d) / (2 d)) into water of the depth
+    // d; D is the depth behind the front, and u D = c (D - d) (Stoker 1957, section 10.6).
     let speed_of = |rise: f64| {
         let high = DEPTH + rise;
         (GRAVITY * high * (high + DEPTH) / (2.0 * DEPTH)).sqrt() * rise / high

@@ -12,8 +12,8 @@ use super::tanks::{GRAVITY, RHO0, run_until};
 /// Duration of the full run [s].
 const FULL: f64 = 5.0;
 
-/// Runs the section in still water for `duration` [s]. Returns the largest displacement of any unit from its start [m], and
-/// the mean vertical force of the water on each unit in the second half over that of Archimedes.
+/// Runs the section in still water for `duration` [s]. Returns the largest displacement of any unit from its start [m],
+/// and the mean vertical force of the water on each unit in the second half over that of Archimedes.
 fn still(duration: f64) -> (f64, Vec<f64>) {
     let text = include_str!("../../cases/breakwater/section.json");
     let mut case: Value = serde_json::from_str(text).unwrap();

@@ -89,17 +89,17 @@ fn results(tank: &Tank) -> Results {
     Results { elevation, force: amplitude, phase, peak }
 }
 
-/// Returns the force of a standing wave of the amplitude `elevation` [m] at a wall, by linear theory [N/m]. The pressure
-/// rho g a cosh k(d + z) / cosh kd is integrated from the bed to the still water level.
+/// Returns the force of a standing wave of the amplitude `elevation` [m] at a wall, by linear theory [N/m]. The
+/// pressure rho g a cosh k(d + z) / cosh kd is integrated from the bed to the still water level.
 fn linear_force(wave: &RegularWave, elevation: f64) -> f64 {
     let k = TAU / wave.wavelength_m();
     1000.0 * GRAVITY * elevation * (k * wave.depth_m).tanh() / k
 }
 
-/// Returns the force at the wave crest on a wall that is not overtopped [N/m] (Goda 1974, normal incidence). The foot of
-/// the wall is in the depth `foot` [m] below the still water level; the foundation lies in the depth of the wave, and
-/// the wave does not break. The pressure is p1 at the still water level, p3 at the foot, and zero at 1.5 H above the still
-/// water level.
+/// Returns the force at the wave crest on a wall that is not overtopped [N/m] (Goda 1974, normal incidence). The foot
+/// of the wall is in the depth `foot` [m] below the still water level; the foundation lies in the depth of the wave,
+/// and the wave does not break. The pressure is p1 at the still water level, p3 at the foot, and zero at 1.5 H above
+/// the still water level.
 fn goda_force(wave: &RegularWave, foot: f64) -> f64 {
     let kd = TAU / wave.wavelength_m() * wave.depth_m;
     let alpha_1 = 0.6 + 0.5 * (2.0 * kd / (2.0 * kd).sinh()).powi(2);

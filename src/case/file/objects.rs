@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::shape::{RockFile, Shape, StlFile};
 
-/// A group of armour units of the same shape and mass, or of rocks. The case places them in a row across the flume or in armour
-/// layers, or it lists their centres or poses.
+/// A group of armour units of the same shape and mass, or of rocks. The case places them in a row across the flume or
+/// in armour layers, or it lists their centres or poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UnitsFile {
@@ -17,9 +17,9 @@ pub struct UnitsFile {
     // Left out of the serialized case at its default, so that cases without this key keep their hash.
     #[serde(default, skip_serializing_if = "is_false")]
     pub fixed: bool,
-    /// Path of fixed units, which then move along it, whatever the forces on them. Each row [t, x, y, z] has the time t from
-    /// the start of the particle simulation [s] and the displacement x, y, z from the start [m]. The displacement is
-    /// linear between rows and constant before the first and after the last row. The first row has no displacement.
+    /// Path of fixed units, which then move along it, whatever the forces on them. Each row [t, x, y, z] has the time t
+    /// from the start of the particle simulation [s] and the displacement x, y, z from the start [m]. The displacement
+    /// is linear between rows and constant before the first and after the last row. The first row has no displacement.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub way: Vec<[f64; 4]>,
     /// Shape of a unit.
@@ -57,8 +57,8 @@ pub struct UnitsFile {
     /// file. A run of this case needs the key `placement_file`, too.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub armour: Option<ArmourFile>,
-    /// A heap. `breakwater place` drops the units from a box, all at the same time, and writes a placement file. A run of
-    /// this case needs the key `placement_file`, too.
+    /// A heap. `breakwater place` drops the units from a box, all at the same time, and writes a placement file. A run
+    /// of this case needs the key `placement_file`, too.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heap: Option<HeapFile>,
     /// Distance between the vertical axes of neighbouring units in the row [m].

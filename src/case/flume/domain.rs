@@ -84,8 +84,8 @@ pub enum Water {
 }
 
 impl Domain {
-    /// Returns the still water in the domain, which has the given density [kg/m3]; `None` if the run starts with a block of
-    /// water.
+    /// Returns the still water in the domain, which has the given density [kg/m3]; `None` if the run starts with a
+    /// block of water.
     pub(in crate::case) fn still_water(&self, flume: &Flume, density: f64) -> Option<StillWater> {
         (self.water == Water::StillLevel).then_some(StillWater { level: flume.still_water_level, density })
     }

@@ -20,7 +20,8 @@ pub struct UnitModel {
 pub struct UnitGroup {
     /// Name in reports.
     pub name: String,
-    /// Shapes and masses of the units, at least one. Rocks have several. Units get them in turn, see [`Self::model_of`].
+    /// Shapes and masses of the units, at least one. Rocks have several. Units get them in turn, see
+    /// [`Self::model_of`].
     pub models: Vec<UnitModel>,
     /// Mass of a unit [kg]; for rocks, the mass of a rock of the size D_n50.
     pub mass: f64,

@@ -169,8 +169,8 @@ impl UnitShape {
     }
 }
 
-/// Validates the dimensions of the units of a group and builds their shapes: several for rocks, otherwise one. `name` is
-/// the path of the case file. The names of stored STL files begin with `stem`.
+/// Validates the dimensions of the units of a group and builds their shapes: several for rocks, otherwise one. `name`
+/// is the path of the case file. The names of stored STL files begin with `stem`.
 pub fn validate(
     file: &UnitsFile,
     rounding_share: f64,
@@ -315,8 +315,8 @@ fn check_length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bo
     check.number(path, value, at_least(SMALLEST).up_to(LARGEST), "m", advice)
 }
 
-/// Validates the mass of a unit [kg] of the given volume [m3]: its density must be between 100 and 20,000 kg/m3. `rho0` is
-/// the water density [kg/m3]; `None` without water.
+/// Validates the mass of a unit [kg] of the given volume [m3]: its density must be between 100 and 20,000 kg/m3. `rho0`
+/// is the water density [kg/m3]; `None` without water.
 pub fn validate_mass(mass: f64, volume: f64, rho0: Option<f64>, check: &mut Checker) {
     let range = more_than(100.0 * volume).up_to(20_000.0 * volume);
     let advice = format!("a unit of this size has a volume of {volume:.3e} m3; concrete has 2300 to 2400 kg/m3");

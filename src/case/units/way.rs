@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use crate::case::reading::check::Checker;
 
-/// A path: rows [t, x, y, z] with the time t from the start of the particle simulation [s] and the displacement from the
-/// position at the start [m]. The displacement is linear between rows, and constant before the first and after the last
-/// row.
+/// A path: rows [t, x, y, z] with the time t from the start of the particle simulation [s] and the displacement from
+/// the position at the start [m]. The displacement is linear between rows, and constant before the first and after the
+/// last row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Way(Vec<[f64; 4]>);
 

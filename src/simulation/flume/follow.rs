@@ -1,10 +1,10 @@
 //! The fine water follows the units.
 //!
-//! The seaward end of the finest region keeps its distance from the most seaward unit, and the shoreward end its distance
-//! from the most shoreward unit. All interfaces on the same side move together. Water over which an interface moves
-//! changes from water to buffer or back, as if it had crossed the interface itself. The new part of a buffer is filled
-//! with particles up to the water level of the neighbouring region; they take their state from the neighbouring region,
-//! as all buffer particles do.
+//! The seaward end of the finest region keeps its distance from the most seaward unit, and the shoreward end its
+//! distance from the most shoreward unit. All interfaces on the same side move together. Water over which an interface
+//! moves changes from water to buffer or back, as if it had crossed the interface itself. The new part of a buffer is
+//! filled with particles up to the water level of the neighbouring region; they take their state from the neighbouring
+//! region, as all buffer particles do.
 
 use std::collections::BTreeMap;
 
@@ -58,8 +58,8 @@ impl Simulation {
         })
     }
 
-    /// Moves the ends of the finest region to the distances `moved` [m] from their places at the start, by less than the
-    /// width of a buffer. All regions must be evaluated; they are evaluated again.
+    /// Moves the ends of the finest region to the distances `moved` [m] from their places at the start, by less than
+    /// the width of a buffer. All regions must be evaluated; they are evaluated again.
     ///
     /// # Errors
     /// If the regions cannot be set up.
@@ -101,8 +101,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Fills the buffer with the given number from its outer edge to the place `before` [m] of this edge before it moved
-    /// outwards, up to the level of the water of the region `neighbour`.
+    /// Fills the buffer with the given number from its outer edge to the place `before` [m] of this edge before it
+    /// moved outwards, up to the level of the water of the region `neighbour`.
     fn fill_strip(&mut self, number: usize, before: f64, neighbour: &Self) {
         let Buffer { edge, outwards, .. } = self.buffers[number];
         if outwards * (edge - before) > 0.0 {

@@ -58,8 +58,8 @@ use regions::buffer::Buffer;
 use standing_cuboids::StandingCuboids;
 use wave::ends::{MovingEnd, move_ends};
 
-/// State of a flume run. If the case has coarser water far away, this is the state of the finest region, with all units;
-/// the other regions are simulations, too.
+/// State of a flume run. If the case has coarser water far away, this is the state of the finest region, with all
+/// units; the other regions are simulations, too.
 pub struct Simulation {
     /// The case; for a coarser region, the case of this region.
     pub case: Arc<Case>,
@@ -85,9 +85,8 @@ pub struct Simulation {
     pub steps: u64,
     /// Flume time at which the particles started [s].
     pub start: f64,
-    /// Time at which, in the flume model, the crest of a solitary wave has passed all units at the start [s]; 0 for other
-    /// waves.
-    /// Like `time`, it counts from the start of the particles.
+    /// Time at which, in the flume model, the crest of a solitary wave has passed all units at the start [s]; 0 for
+    /// other waves. Like `time`, it counts from the start of the particles.
     pub passing_time: f64,
     /// Extremes and counts since the start of the run.
     pub statistics: Statistics,

@@ -112,7 +112,8 @@ impl Simulation {
         Self::in_regions(device, case, flume, start, moved, true)
     }
 
-    /// Sets up the simulation as [`Self::starting_at`], with the record of the flume model. Placed units settle first if
+    /// Sets up the simulation as [`Self::starting_at`], with the record of the flume model. Placed units settle first
+    /// if
     /// `settles` is true.
     pub(super) fn in_regions(
         device: &Device,

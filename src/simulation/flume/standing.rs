@@ -19,8 +19,8 @@ use crate::{
 /// Gap between a body and the sides of a periodic flume below which the body crosses the flume, divided by dp [-].
 const ACROSS: f64 = 0.25;
 
-/// Returns the space that water can reach next to a body between two y [m]. The space ends `inset` dp in front of bed and
-/// walls.
+/// Returns the space that water can reach next to a body between two y [m]. The space ends `inset` dp in front of bed
+/// and walls.
 pub(super) fn space_around(case: &Case, y: [f64; 2], inset: f64) -> OpenSpace {
     let case::Domain { x, width, sides, dp, .. } = case.domain;
     let crosses = y[1] - y[0] > width - 2.0 * ACROSS * dp;
@@ -28,8 +28,8 @@ pub(super) fn space_around(case: &Case, y: [f64; 2], inset: f64) -> OpenSpace {
     OpenSpace::new(&case.flume.profile, x, has_sides.then_some([0.0, width]), inset * dp)
 }
 
-/// Adds the particles of a body to those of bed and walls, whose surface vectors it changes. Where bed or side walls have
-/// particles, the body has none.
+/// Adds the particles of a body to those of bed and walls, whose surface vectors it changes. Where bed or side walls
+/// have particles, the body has none.
 pub(super) fn add_body(walls: &mut Vec<BoundaryParticle>, body: &BodyPart, case: &Case) {
     let case::Domain { dp, width, .. } = case.domain;
     let [low, high] = body.solid.bounds();

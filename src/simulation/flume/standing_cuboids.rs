@@ -1,8 +1,8 @@
 //! Cuboids that can move and stand on bed, parts or walls with a face: no water is below this face.
 //!
 //! The face counts as closed, as if the cuboid were an obstacle there: the surface vectors of its particles lead to its
-//! other faces, and those of the particles below it to its foot. The faces are found again after each time step from the
-//! poses of the units alone, so that a run can resume at any time.
+//! other faces, and those of the particles below it to its foot. The faces are found again after each time step from
+//! the poses of the units alone, so that a run can resume at any time.
 
 use glam::{DVec2, DVec3};
 
@@ -57,8 +57,8 @@ impl StandingCuboids {
         }
     }
 
-    /// Returns the particles of bed and walls below the closed faces of a cuboid, with vectors from their surface points to
-    /// its foot. The surface points are at most `gap` [m] away from these faces.
+    /// Returns the particles of bed and walls below the closed faces of a cuboid, with vectors from their surface
+    /// points to its foot. The surface points are at most `gap` [m] away from these faces.
     fn covered(
         &self,
         state: &BodyState,

@@ -26,9 +26,9 @@ use crate::{
 /// narrower gap has no room for water particles.
 const NARROWEST_GAP: f64 = 0.5;
 
-/// Returns the units at their start positions, and a warning if placed units do not stay there. `case` is the case of all
-/// regions: units collide with the end walls of the domain, not with the ends of the finest region. Placed units settle
-/// first if `settles` is true.
+/// Returns the units at their start positions, and a warning if placed units do not stay there. `case` is the case of
+/// all regions: units collide with the end walls of the domain, not with the ends of the finest region. Placed units
+/// settle first if `settles` is true.
 pub(super) fn set_up_units(
     case: &Case,
     units: &case::Units,
@@ -53,8 +53,8 @@ pub(super) fn set_up_units(
 const FURTHEST: f64 = 0.01;
 
 /// Lets placed units settle, and returns all bodies at rest with loaded contacts. A placement file has poses, but no
-/// tangential springs: without this, the units would sink into their contacts when the run releases them. If they do not
-/// come to rest near their poses, they keep these, and the result has a warning.
+/// tangential springs: without this, the units would sink into their contacts when the run releases them. If they do
+/// not come to rest near their poses, they keep these, and the result has a warning.
 fn settled(setup: RigidSetup, units: &case::Units, case: &Case) -> Result<(RigidWorld, Option<String>), RigidError> {
     let mut held = setup.clone();
     for (kind, (group, _)) in held.kinds.iter_mut().zip(group::models(&units.groups)) {
@@ -88,8 +88,8 @@ fn settled(setup: RigidSetup, units: &case::Units, case: &Case) -> Result<(Rigid
 /// fills the width of a periodic flume, its side faces touch its periodic images. The vectors `to_surface` of its
 /// boundary particles then never point to these faces.
 ///
-/// With inviscid walls, units that are not cuboids have particles of half the spacing, because their legs are only a few
-/// spacings thick.
+/// With inviscid walls, units that are not cuboids have particles of half the spacing, because their legs are only a
+/// few spacings thick.
 pub(super) fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     let dp = case.domain.dp;
     let mut particles = match box_in_place(shape, case) {

@@ -54,8 +54,8 @@ pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 /// beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
 pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 
-/// Longest horizontal way from the surface point of a boundary particle to its ghost node [h]. Only particles deep inside
-/// or below a wide body are further from their surface point.
+/// Longest horizontal way from the surface point of a boundary particle to its ghost node [h]. Only particles deep
+/// inside or below a wide body are further from their surface point.
 const LONGEST_WAY: f64 = 3.0;
 
 /// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
@@ -209,8 +209,8 @@ impl NodeTerms<17, 0> for NodeSums {
     }
 }
 
-/// Returns the vector from the surface point of a boundary particle to its ghost node [m]. `to_surface` is the vector to
-/// the surface point [m], and `h` the smoothing length [m].
+/// Returns the vector from the surface point of a boundary particle to its ghost node [m]. `to_surface` is the vector
+/// to the surface point [m], and `h` the smoothing length [m].
 fn beyond(to_surface: DVec3, h: f64) -> DVec3 {
     let way = to_surface.truncate().length();
     if way <= LONGEST_WAY * h {
@@ -221,8 +221,8 @@ fn beyond(to_surface: DVec3, h: f64) -> DVec3 {
 }
 
 impl NodeSums {
-    /// Returns the density of the boundary particle [kg/m3]; `to_surface` [m] is the vector from the particle to its surface
-    /// point.
+    /// Returns the density of the boundary particle [kg/m3]; `to_surface` [m] is the vector from the particle to its
+    /// surface point.
     fn density_at(&self, parameters: &Parameters, to_surface: DVec3) -> f64 {
         let rho0 = parameters.tait.rho0;
         let occupied = f64::from(self.value[0]);
@@ -230,7 +230,8 @@ impl NodeSums {
             return rho0;
         }
         let h = parameters.kernel.h;
-        // Vector from the node to the boundary particle, or to the same level at most `LONGEST_WAY` behind the surface [h].
+        // Vector from the node to the boundary particle, or to the same level at most `LONGEST_WAY` behind the surface
+        // [h].
         let back = -2.0 * beyond(to_surface, h) / h;
         let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
         let above_centroid = back.z - f64::from(self.value[3]) / occupied;
@@ -242,8 +243,8 @@ impl NodeSums {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
-        // A wall pulls no more than the water around the node. Between a wall and a thin sheet, air would enter, so that
-        // the wall does not pull there.
+        // A wall pulls no more than the water around the node. Between a wall and a thin sheet, air would enter, so
+        // that the wall does not pull there.
         let lowest = parameters.lowest_density.map_or(0.0, |density| trust * around.clamp(density - rho0, 0.0));
         rho0 + excess.max(lowest)
     }

@@ -137,8 +137,8 @@ fn fitted(sums: NodeSums, back: vec3<f32>, mean: f32) -> f32 {
     return value + dot(vec3<f32>(x, y, z), back);
 }
 
-// Returns the vector from the surface point of a boundary particle to its ghost node [m]; `surface` [m] is the vector from
-// the particle to its surface point (`beyond` in mdbc.rs).
+// Returns the vector from the surface point of a boundary particle to its ghost node [m]; `surface` [m] is the vector
+// from the particle to its surface point (`beyond` in mdbc.rs).
 fn beyond(surface: vec3<f32>) -> vec3<f32> {
     let longest = 3.0 * parameters.h;
     let way = length(surface.xy);

@@ -70,8 +70,8 @@ pub struct BoundaryParticle {
 
 impl Boundary {
     /// Creates the `fixed` particles of bed and walls, the particles of each piston with their row numbers, and the
-    /// particles of each of the `units`. All particles start with the density `rho0` [kg/m3]. The units lie at the origin
-    /// until [`Self::move_unit`] moves them.
+    /// particles of each of the `units`. All particles start with the density `rho0` [kg/m3]. The units lie at the
+    /// origin until [`Self::move_unit`] moves them.
     pub fn new(
         fixed: &[BoundaryParticle],
         pistons: &[Vec<(u32, BoundaryParticle)>],
@@ -144,8 +144,8 @@ impl Boundary {
         &self.unit_numbers
     }
 
-    /// Returns position and surface vector of each particle of a unit, in the unit's axes [m]. These values are the same
-    /// for all units of its shape.
+    /// Returns position and surface vector of each particle of a unit, in the unit's axes [m]. These values are the
+    /// same for all units of its shape.
     pub fn positions_in_unit(&self, unit: usize) -> impl Iterator<Item = (DVec3, DVec3)> {
         self.units
             .get(unit)
@@ -196,7 +196,8 @@ impl Boundary {
         self.standing[unit] = bounds;
     }
 
-    /// Adds vectors [m] to the own surface vectors of these wall particles. All other wall particles have their own ones.
+    /// Adds vectors [m] to the own surface vectors of these wall particles. All other wall particles have their own
+    /// ones.
     pub fn cover_walls(&mut self, covered: impl Iterator<Item = (usize, DVec3)>) {
         for particle in self.covered.drain(..) {
             self.to_surface[particle] = self.anchor_to_surface[particle];

@@ -51,7 +51,8 @@ fn two_kinds_slide_at_the_friction_angles_of_their_materials() {
     }
     let found = slides_at.map(|tangent| tangent.unwrap());
     println!("Tetrapod slides at tan = {:.4}, cube at {:.4}", found[0], found[1]);
-    // Target: 1 % of the coefficients. Until a unit has reached 1 mm/s, the ground tilts further by 0.1 degrees (0.5 %).
+    // Target: 1 % of the coefficients. Until a unit has reached 1 mm/s, the ground tilts further by 0.1 degrees (0.5
+    // %).
     assert!((found[0] / tetrapod_friction - 1.0).abs() < 0.01 && (found[1] / cube_friction - 1.0).abs() < 0.01);
 }
 
@@ -147,8 +148,8 @@ fn a_fixed_body_carries_others_and_does_not_move() {
     // The force on the free cube is its weight; 1e-3 allows for residual motion.
     let load = world.contact_loads()[2].force.z;
     assert!((load / (0.5 * G) - 1.0).abs() < 1e-3, "{load}");
-    // Limit 0.1 mm for the position: the overlap at rest is some hundredths of a millimetre. Limit 1e-9 J for the kinetic
-    // energy: a fall of 0.2 nm.
+    // Limit 0.1 mm for the position: the overlap at rest is some hundredths of a millimetre. Limit 1e-9 J for the
+    // kinetic energy: a fall of 0.2 nm.
     assert!((world.states()[2].position.z - 0.08).abs() < 1e-4);
     assert!(world.energy().kinetic < 1e-9, "{:?}", world.energy());
 }

@@ -114,7 +114,8 @@ fn five_hundred_tetrapods_cost_as_much_per_contact_as_fifteen() {
 #[test]
 #[ignore = "16 minutes on one core: cargo test --release --test verification -- --ignored --nocapture rigid::pile::a_thousand"]
 fn a_thousand_tetrapods_come_to_rest() {
-    // The pile is five layers deep instead of three, and its deepest contact, between two edges, has an overlap of 1.3 %.
+    // The pile is five layers deep instead of three, and its deepest contact, between two edges, has an overlap of 1.3
+    // %.
     assert!(run_to_rest(1000, [16, 12], 20.0, 1.2).overlap < 0.02);
 }
 
