@@ -95,7 +95,7 @@ impl Document {
             () if has_any(&["flume", "domain"]) => InputKind::Flume,
             () if self.has("bodies") || self.has_similar("fracture") => InputKind::Fracture,
             () if has_any(&["series", "waves"]) => InputKind::Reference,
-            () if has_any(&["poses", "packing_density"]) => InputKind::Placement,
+            () if has_any(&["poses", "packing_density", "groups"]) => InputKind::Placement,
             () if self.has("case") || self.has_similar("vary") => InputKind::Sweep,
             () => InputKind::Flume,
         }
@@ -172,6 +172,7 @@ mod tests {
         assert_eq!(kind(r#"{ "fractre": {}, "bodies": [] }"#), InputKind::Fracture);
         assert_eq!(kind(r#"{ "fracture": {}, "bodis": [] }"#), InputKind::Fracture);
         assert_eq!(kind(r#"{ "title": "", "packing_density": 1, "pose": [] }"#), InputKind::Placement);
+        assert_eq!(kind(r#"{ "title": "", "groups": [] }"#), InputKind::Placement);
         assert_eq!(kind(r#"{ "source": "", "serie": [], "waves": [], "notes": [] }"#), InputKind::Reference);
         assert_eq!(kind(r#"{ "flumme": {}, "domian": {}, "wave": {}, "units": {} }"#), InputKind::Flume);
         assert_eq!(kind(r#"{ "flume": {}, "fracture": {}, "friction": [] }"#), InputKind::Flume);
