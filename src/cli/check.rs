@@ -78,7 +78,8 @@ fn check(path: &Path) -> Result<(), CommandError> {
             Ok(())
         }
         InputFile::Placement(file) => {
-            let units = counted(file.poses.len(), "unit");
+            let of_groups = file.groups.iter().map(|group| group.poses.len()).sum::<usize>();
+            let units = counted(file.poses.len() + of_groups, "unit");
             println!("{}: placement of {units} for the case: {}", path.display(), file.title);
             Ok(())
         }
