@@ -19,7 +19,7 @@ use super::{dry_test, flume_case};
 use crate::geometry::outline::polygon::Polygon;
 
 /// Distance between the centres of neighbouring units before they fall, divided by the largest distance of the surface
-/// of a unit from its centre [-].
+/// of a unit from its centre [-]: the diameter of the sphere around a unit, and 1 % of room.
 const APART: f64 = 2.02;
 
 /// Armour layers on a slope; SI units.

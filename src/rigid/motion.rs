@@ -9,7 +9,34 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
+use super::setup::{BodyKind, BodyShape};
 pub use crate::mechanics::{BodyState, Load};
+
+/// Mass and inertia tensor of the bodies of one kind.
+#[derive(Debug, Clone, Copy)]
+pub struct Inertia {
+    /// Mass [kg]; infinite for fixed bodies.
+    pub mass: f64,
+    /// Inertia tensor about the centre of mass [kg m2], and its inverse; the inverse is zero for fixed bodies.
+    pub tensor: DMat3,
+    pub inverse: DMat3,
+}
+
+impl Inertia {
+    /// Returns mass and inertia of the bodies of a kind.
+    pub fn of(kind: &BodyKind) -> Self {
+        let BodyShape { mass, inertia, .. } = kind.shape;
+        match kind.is_fixed {
+            true => Self { mass: f64::INFINITY, tensor: inertia, inverse: DMat3::ZERO },
+            false => Self { mass, tensor: inertia, inverse: inertia.inverse() },
+        }
+    }
+
+    /// Returns true for fixed bodies.
+    pub fn is_fixed(&self) -> bool {
+        self.mass == f64::INFINITY
+    }
+}
 
 /// Angular momentum L = R I R^T omega [kg m2/s].
 pub fn angular_momentum(rotation: DQuat, inertia: &DMat3, angular_velocity: DVec3) -> DVec3 {

@@ -6,44 +6,20 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
 
 use super::contact::{Contact, LONGEST_SUBSTEP, Substep};
 use super::error::RigidError;
 use super::forces::{ContactResults, Energy, EvaluationMemory, Laws};
 use super::kinematics::{Motion, Placements, Velocities};
-use super::motion::{self, BodyState, Load};
+use super::motion::{self, BodyState, Inertia, Load};
 use super::record::{ContactEvent, ContactRecords, RecordedContact};
 use super::search::{ContactSearch, Surfaces};
-use super::setup::{Body, BodyKind, BodyShape, RigidSetup, Sides};
+use super::setup::{Body, BodyKind, RigidSetup, Sides};
 
 /// Number of substeps in the shortest oscillation period of a body on its contact springs [-]. With 80 substeps, the
 /// restitution of an impact is accurate to 1e-3 (see the tests). An impact lasts about two thirds of this period.
 pub const STEPS_PER_PERIOD: f64 = 80.0;
-
-/// Mass and inertia tensor of the bodies of one kind.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Inertia {
-    /// Mass [kg]; infinite for fixed bodies.
-    pub mass: f64,
-    /// Inertia tensor about the centre of mass [kg m2], and its inverse; the inverse is zero for fixed bodies.
-    pub tensor: DMat3,
-    pub inverse: DMat3,
-}
-
-impl Inertia {
-    fn of(kind: &BodyKind) -> Self {
-        let BodyShape { mass, inertia, .. } = kind.shape;
-        match kind.is_fixed {
-            true => Self { mass: f64::INFINITY, tensor: inertia, inverse: DMat3::ZERO },
-            false => Self { mass, tensor: inertia, inverse: inertia.inverse() },
-        }
-    }
-
-    pub(super) fn is_fixed(&self) -> bool {
-        self.mass == f64::INFINITY
-    }
-}
 
 /// Memory of a substep. Each list has one entry per body.
 #[derive(Debug, Clone, Default)]
@@ -224,13 +200,10 @@ impl RigidWorld {
     /// # Errors
     /// If forces move this body.
     pub fn drive(&mut self, body: usize, velocity: DVec3) -> Result<(), RigidError> {
-        if !self.inertias[self.kind[body]].is_fixed() {
-            let mass = self.inertias[self.kind[body]].mass;
-            return Err(RigidError::Setup {
-                what: "the mass of a driven body [kg]".into(),
-                value: mass,
-                allowed: "infinite",
-            });
+        let Inertia { mass, .. } = self.inertias[self.kind[body]];
+        if mass.is_finite() {
+            let what = "the mass of a driven body [kg]".into();
+            return Err(RigidError::Setup { what, value: mass, allowed: "infinite" });
         }
         self.velocity[body] = velocity;
         Ok(())

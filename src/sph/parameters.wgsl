@@ -35,7 +35,7 @@ struct Parameters {
     density_slope: f32,
     // Coefficient beta of the quadratic part of the artificial viscosity [-].
     beta: f32,
-    padding: f32,
+    longest_way: f32,
     // Between these limits, the trust in a fitted gradient changes: limits of the distance from a ghost node to the
     // centroid of the water around it [h], and of the spread of this water [h2] (mdbc.rs).
     centroid_limits: vec2<f32>,

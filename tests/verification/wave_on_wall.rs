@@ -164,9 +164,12 @@ fn a_caisson_slides_under_waves_by_newtons_law() {
     let text =
         include_str!("../../cases/breakwater/caisson.json").replace(r#""duration_s": 10.0"#, r#""duration_s": 5.4"#);
     let case = Case::from_str(&text, "cases/breakwater/test.json").unwrap_or_else(|errors| panic!("{errors}"));
-    let mass = case.units.as_ref().unwrap().groups[0].models[0].mass;
-    let friction = 0.6;
-    let wave = RegularWave { height_m: 0.12, period_s: 2.0, depth_m: 0.5, gravity: GRAVITY };
+    let units = case.units.as_ref().unwrap();
+    let (mass, centre) = (units.groups[0].models[0].mass, units.placements[0].centre);
+    let pair = case.friction.iter().find(|pair| pair.between[0] != pair.between[1]).unwrap();
+    let friction = pair.kinetic;
+    let breakwater::case::Wave::Regular { wave, .. } = case.wave else { panic!("regular waves") };
+    let foot = case.flume.still_water_level - case.flume.profile.z(centre.x);
     let mut caisson = Simulation::new(Arc::new(case)).unwrap();
     let (mut slide, mut before, mut peak) = (Slide::default(), 0.0, 0.0f64);
     run_until(&mut caisson, 5.4, |now| {
@@ -178,7 +181,7 @@ fn a_caisson_slides_under_waves_by_newtons_law() {
     });
     let units = caisson.units.as_ref().unwrap();
     let way = units.states()[0].position.x - units.start[0].position.x;
-    let goda = goda_force(&wave, 0.35);
+    let goda = goda_force(&wave, foot);
     println!(
         "the caisson slides by {:.3} mm, by Newton's law {:.3} mm ({:+.2} %); largest force {peak:.0} N, {:.2} of Goda's \
          formula",

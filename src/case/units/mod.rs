@@ -172,7 +172,7 @@ pub(super) fn placed(
     let poses = place(file, unplaced.as_ref(), around, check);
     let (unplaced, poses) = (unplaced?, poses?);
     if let (Some(way), Some(site)) = (&unplaced.way, around.site) {
-        check_way(way, &poses, site, check);
+        way.check_inside(&poses, site, check);
     }
     let slices = around.site.map_or(1.0, |site| planar::slices(unplaced.shape(), site));
     let members = placements.len()..placements.len() + poses.len();
@@ -218,7 +218,7 @@ pub(super) fn validate_unplaced(
             "write the material of the bed",
         );
     }
-    let way = validate_way(file, around, check);
+    let way = Way::of_units(file, around, check);
     if check.count() > before {
         return None;
     }
@@ -243,42 +243,6 @@ pub(super) fn validate_unplaced(
         limits: limits?,
         material: material?,
     })
-}
-
-/// Checks that the centres of units stay in the domain on their path.
-fn check_way(way: &Way, poses: &[UnitPose], site: &Site, check: &mut Checker) {
-    let [x0, x1] = site.x;
-    for (row, by) in way.places().enumerate() {
-        if site.sides == Sides::TwoDimensional && by.y != 0.0 {
-            check.reject(&format!(".way[{row}]"), by.y, "0 m across the flume", "units move in the plane of the flume");
-        }
-        let leaves = |pose: &UnitPose| {
-            let DVec3 { x, y, .. } = pose.centre + by;
-            !(x0..=x1).contains(&x) || (site.sides == Sides::Walls && !(0.0..=site.width).contains(&y))
-        };
-        if poses.iter().any(leaves) {
-            let advice = "the centres of all units must stay in the domain";
-            check.reject(&format!(".way[{row}]"), format!("{by} m"), "a displacement inside the domain", advice);
-        }
-    }
-}
-
-/// Returns the path of fixed units.
-fn validate_way(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Way> {
-    let way = Way::validate(&file.way, ".way", check)?;
-    let Some(water) = &around.water else {
-        check.reject(".way", "given", "left out in a dry test", "only flume cases move units along a path");
-        return None;
-    };
-    if !file.fixed {
-        let advice = "write \"fixed\": true; forces move other units";
-        check.reject(".way", "given", "left out without `fixed`", advice);
-    }
-    if way.begin() < water.hold || way.displacement(0.0) != DVec3::ZERO {
-        let advice = "units stand still until then; begin with a row [t, 0, 0, 0]";
-        check.reject(".way[0]", format!("{:?}", file.way[0]), format!("[at least {}, 0, 0, 0]", water.hold), advice);
-    }
-    Some(way)
 }
 
 /// Places the units in a row, at their centres or in their poses. Returns `None` if the case file has errors that

@@ -2,6 +2,9 @@
 
 use glam::DVec3;
 
+use super::{Surroundings, UnitPose};
+use crate::case::file::{Sides, UnitsFile};
+use crate::case::flume::site::Site;
 use crate::case::reading::check::Checker;
 
 /// A path: rows [t, x, y, z] with the time t from the start of the particle simulation [s] and the displacement from
@@ -43,14 +46,43 @@ impl Way {
         self.0[self.0.len() - 1][0]
     }
 
-    /// Displacement in each row [m].
-    pub(super) fn places(&self) -> impl Iterator<Item = DVec3> {
-        self.0.iter().map(|row| DVec3::new(row[1], row[2], row[3]))
+    /// Validates the path of fixed units.
+    pub(super) fn of_units(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Self> {
+        let way = Self::validate(&file.way, ".way", check)?;
+        let Some(water) = &around.water else {
+            check.reject(".way", "given", "left out in a dry test", "only flume cases move units along a path");
+            return None;
+        };
+        if !file.fixed {
+            let advice = "write \"fixed\": true; forces move other units";
+            check.reject(".way", "given", "left out without `fixed`", advice);
+        }
+        let [time, displacement @ ..] = way.0[0];
+        if time < water.hold || displacement != [0.0; 3] {
+            let (first, allowed) = (format!("{:?}", way.0[0]), format!("[at least {}, 0, 0, 0]", water.hold));
+            check.reject(".way[0]", first, allowed, "units stand still until then; begin with a row [t, 0, 0, 0]");
+        }
+        Some(way)
     }
 
-    /// Time of the first row [s].
-    pub fn begin(&self) -> f64 {
-        self.0[0][0]
+    /// Checks that the centres of units with these poses stay in the domain.
+    pub(super) fn check_inside(&self, poses: &[UnitPose], site: &Site, check: &mut Checker) {
+        let [x0, x1] = site.x;
+        for (number, &[_, x, y, z]) in self.0.iter().enumerate() {
+            let path = format!(".way[{number}]");
+            if site.sides == Sides::TwoDimensional && y != 0.0 {
+                check.reject(&path, y, "0 m across the flume", "units move in the plane of the flume");
+            }
+            let by = DVec3::new(x, y, z);
+            let leaves = |pose: &UnitPose| {
+                let at = pose.centre + by;
+                !(x0..=x1).contains(&at.x) || (site.sides == Sides::Walls && !(0.0..=site.width).contains(&at.y))
+            };
+            if poses.iter().any(leaves) {
+                let advice = "the centres of all units must stay in the domain";
+                check.reject(&path, format!("{by} m"), "a displacement inside the domain", advice);
+            }
+        }
     }
 }
 

@@ -3,8 +3,8 @@
 //! Like a crane, the program places the units layer by layer, and row by row from the toe upwards. The number of units
 //! is N = phi A / D_n^2, with packing density phi, area A of the slope, and nominal diameter D_n of a unit. The units
 //! are lowered at the nodes of a staggered grid; contact forces determine where they come to rest. Units that leave the
-//! slope are replaced where the layers are thinnest. Groups without layers are in their places from the start. At the
-//! end, the layers of a flume case settle once more with the buoyancy of still water, which relieves their contacts.
+//! slope are replaced where the layers are thinnest. Groups without layers are in their places from the start. The units
+//! of a heap fall from a box. In a flume case, still water lifts all units at the end, and they settle again.
 
 mod lower;
 mod slots;

@@ -13,7 +13,7 @@ use super::{
     setup::SetupError,
 };
 use crate::{
-    case::Case,
+    case::{Case, Way},
     output::{
         OutputError, Stopped, Summary,
         driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},
@@ -168,7 +168,9 @@ fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
     // Check the speed as well as the displacement: a unit that begins to move has no displacement yet.
     let slow = units.states().iter().all(|state| speed(state) < rule.speed);
     let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
-    // Units are also at rest before the wave reaches them: do not stop then.
-    let may_stop = simulation.time >= rule.not_before.max(simulation.passing_time);
+    // Units are also at rest before the wave reaches them, and during a pause on their path: do not stop then.
+    let ways = units.groups.iter().filter_map(|group| group.way.as_ref());
+    let arrived = ways.map(Way::end).fold(simulation.passing_time, f64::max);
+    let may_stop = simulation.time >= rule.not_before.max(arrived);
     (may_stop && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
 }

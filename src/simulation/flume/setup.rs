@@ -20,7 +20,7 @@ use super::{
     },
 };
 use crate::{
-    case::{self, Case, Part, PartShape, Region, Way, group},
+    case::{self, Case, Part, PartShape, Region, group},
     geometry::{axis_box::AxisBox, outline::Outline, profile::Profile},
     rigid::RigidError,
     sph::{
@@ -113,8 +113,7 @@ impl Simulation {
     }
 
     /// Sets up the simulation as [`Self::starting_at`], with the record of the flume model. Placed units settle first
-    /// if
-    /// `settles` is true.
+    /// if `settles` is true.
     pub(super) fn in_regions(
         device: &Device,
         case: Arc<Case>,
@@ -186,8 +185,6 @@ impl Simulation {
 
         let shoreward = units.iter().flat_map(Units::states).map(|state| state.position.x).reduce(f64::max);
         let passing_time = shoreward.map_or(0.0, |x| passing_time(&case, flume.as_deref(), start, x));
-        let ways = units.iter().flat_map(|units| &units.groups).filter_map(|group| group.way.as_ref());
-        let passing_time = ways.map(Way::end).fold(passing_time, f64::max);
         let [low, high] = bounds(&case, reach);
         let allowed = [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)];
         let next_id = number * IDS_PER_REGION + water.len() as u32;

@@ -49,7 +49,8 @@ pub(super) fn set_up_units(
     Ok((Units { groups, recorded, world, start, fluid_loads, mean_loads, water_at_impacts }, warning))
 }
 
-/// Largest way of a placed unit while it settles before a run, divided by the height of the highest unit [-].
+/// Largest way of a placed unit while it settles before a run, divided by the height of the highest unit [-]. Units that
+/// only load their contacts move by less than the overlap, for which 1 % is the limit, too.
 const FURTHEST: f64 = 0.01;
 
 /// Lets placed units settle, and returns all bodies at rest with loaded contacts. A placement file has poses, but no

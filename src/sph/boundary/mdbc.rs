@@ -54,9 +54,10 @@ pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 /// beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
 pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 
-/// Longest horizontal way from the surface point of a boundary particle to its ghost node [h]. Only particles deep
-/// inside or below a wide body are further from their surface point.
-const LONGEST_WAY: f64 = 3.0;
+/// Longest horizontal way from the surface point of a boundary particle to its ghost node [h]. Only particles deep inside
+/// or below a wide body are further from their surface point. A wave changes little over this way, and it is longer than
+/// the way from the corners of walls with three layers of particles, which is 2.5 h in two dimensions.
+pub(in crate::sph) const LONGEST_WAY: f64 = 3.0;
 
 /// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
 pub(super) const MIN_CHUNK: usize = 1024;

@@ -140,12 +140,11 @@ fn fitted(sums: NodeSums, back: vec3<f32>, mean: f32) -> f32 {
 // Returns the vector from the surface point of a boundary particle to its ghost node [m]; `surface` [m] is the vector
 // from the particle to its surface point (`beyond` in mdbc.rs).
 fn beyond(surface: vec3<f32>) -> vec3<f32> {
-    let longest = 3.0 * parameters.h;
     let way = length(surface.xy);
-    if way <= longest {
+    if way <= parameters.longest_way {
         return surface;
     }
-    return vec3<f32>(surface.xy * (longest / way), surface.z);
+    return vec3<f32>(surface.xy * (parameters.longest_way / way), surface.z);
 }
 
 // Returns rho - rho0 of the boundary particle; `surface` [m] is the vector from the particle to its surface.

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
 use crate::sph::{
-    boundary::mdbc::{CENTROID_LIMITS, DRY_LIMIT, MIN_DETERMINANT, SPREAD_LIMITS},
+    boundary::mdbc::{CENTROID_LIMITS, DRY_LIMIT, LONGEST_WAY, MIN_DETERMINANT, SPREAD_LIMITS},
     neighbours::grid::Grid,
     parameters::Parameters,
     terms::{density_diffusion::Diffusion, equation_of_state::Tait, viscosity::Viscosity},
@@ -31,7 +31,7 @@ pub struct Constants {
     gravity: f32,
     density_slope: f32,
     beta: f32,
-    padding: f32,
+    longest_way: f32,
     centroid_limits: [f32; 2],
     spread_limits: [f32; 2],
     least_determinant: f32,
@@ -84,7 +84,7 @@ impl Constants {
             gravity: gravity as f32,
             density_slope: (-tait.rho0 * gravity / tait.c0.powi(2)) as f32,
             beta,
-            padding: 0.0,
+            longest_way: (LONGEST_WAY * kernel.h) as f32,
             centroid_limits: CENTROID_LIMITS.map(|t| t as f32),
             spread_limits: SPREAD_LIMITS.map(|t| t as f32),
             least_determinant: MIN_DETERMINANT as f32,
