@@ -42,7 +42,7 @@ impl Tank {
     ) -> Self {
         let Parameters { dp, gravity, tait, .. } = parameters;
         let across = Across { width, count: (width / dp).round() as u32, walls: false };
-        let basin = Basin { x: [0.0, length], across, dp, bed: &|_| 0.0, surface, velocity, gravity };
+        let basin = Basin { x: [0.0, length], across, dp, bed: &|_, _| 0.0, surface, velocity, gravity };
         let top = 1.5 * depth;
         let corners = [[0.0, top], [0.0, 0.0], [length, 0.0], [length, top]];
         let outline = Outline::new(&corners.map(DVec2::from_array));

@@ -11,7 +11,7 @@ use super::flume::part::Part;
 use super::flume::structure::{self, Room};
 use super::flume::{bed, site::Site, terrain};
 use super::output::{files, stop, stop::Stop};
-use super::reading::check::{Checker, at_least, more_than};
+use super::reading::check::{Checker, as_text, at_least, more_than};
 use super::reading::document::Document;
 use super::reading::error::CaseErrors;
 use super::reading::hash::fingerprint;
@@ -194,6 +194,10 @@ fn validate_site(file: &DryFile, name: &str, materials: GroundMaterials, check: 
     let mut flume = bed::validate(&ground, [materials.bed, materials.mound], check)?;
     let before = check.count();
     let terrain = file.flume.terrain.as_ref().and_then(|file| terrain::validate(file, name, check));
+    if let Some(y) = file.flume.terrain.as_ref().and_then(|file| file.section_y_m) {
+        let advice = "remove it: only the flume model of a wave run needs a section";
+        check.reject("flume.terrain.section_y_m", as_text(y), "left out in a dry test", advice);
+    }
     let [start, end] = flume.ends();
     for (index, x) in file.domain.x_m.into_iter().enumerate() {
         let advice = "move the end of the domain or lengthen `flume.bed_m`";

@@ -163,6 +163,9 @@ fn print(case: &Case) {
         "  domain      x = {} to {} m, {across}, still water depth up to {:.3} m",
         case.domain.x[0], case.domain.x[1], case.domain.depth
     );
+    if let Some(bathymetry) = &case.flume.bathymetry {
+        println!("  terrain     the flume model uses its section along y = {} m", bathymetry.y);
+    }
     if !case.flume.parts.is_empty() {
         let words = |part: &Part| {
             let place = match part.shape {

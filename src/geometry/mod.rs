@@ -5,6 +5,7 @@ pub mod armour_unit;
 pub mod axis_box;
 pub mod convex;
 pub mod decomposition;
+pub mod height_field;
 pub mod open_space;
 pub mod outline;
 pub mod profile;

@@ -195,7 +195,7 @@ impl Towed {
             x: [0.0, length],
             across,
             dp,
-            bed: &|_| 0.0,
+            bed: &|_, _| 0.0,
             surface: &|_| self.height,
             velocity: &|_, _| DVec2::ZERO,
             gravity: 0.0,

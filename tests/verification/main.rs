@@ -35,6 +35,7 @@ mod still_water;
 mod structure;
 mod structure_bodies;
 mod tanks;
+mod terrain;
 mod two_dimensional;
 mod two_dimensional_units;
 mod unit_in_stream;

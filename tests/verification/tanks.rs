@@ -154,7 +154,7 @@ impl BareTank {
             x: [0.0, side],
             across,
             dp,
-            bed: &|_| 0.0,
+            bed: &|_, _| 0.0,
             surface: &|_| side,
             velocity: &|_, _| DVec2::ZERO,
             gravity: 0.0,

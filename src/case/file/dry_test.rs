@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BreakageFile, ContactFile, FrictionFile, MaterialFile, MoundFile, PartFile, Sides, StopFile, UnitGroupsFile,
+    BreakageFile, ContactFile, FrictionFile, MaterialFile, MoundFile, PartFile, Sides, StopFile, TerrainFile,
+    UnitGroupsFile,
 };
 
 /// A dry test: units on a bed without water, for a tilt, drop or settling test.
@@ -119,22 +120,6 @@ pub struct DryFlumeFile {
     pub terrain: Option<TerrainFile>,
     /// Material of bed, terrain and walls: a name in `materials`.
     pub material: String,
-}
-
-/// An STL file (ASCII or binary) of an open or closed surface on which units stand. The corners of each triangle must
-/// be in counter-clockwise order, seen from the side of the units.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct TerrainFile {
-    /// Path of the STL file, relative to the folder of the case file.
-    pub path: String,
-    /// Length unit of the file in metres: 1 for metres, 0.001 for millimetres.
-    #[serde(default = "default_scale")]
-    pub scale: f64,
-}
-
-fn default_scale() -> f64 {
-    1.0
 }
 
 /// Test area of a dry test. Walls stand at its seaward and at its shoreward end.

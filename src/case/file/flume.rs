@@ -14,6 +14,9 @@ pub struct FlumeFile {
     /// A trapezoidal mound on the bed.
     #[serde(default)]
     pub mound: Option<MoundFile>,
+    /// A surface on or above the bed, for example a survey of the sea bed. The ground is the higher of the two.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<TerrainFile>,
     /// Material of bed and walls: a name in `materials`. Required if the case has units.
     #[serde(default)]
     pub material: Option<String>,
@@ -37,8 +40,8 @@ impl FlumeFile {
     pub(crate) fn dry(bed_m: Vec<[f64; 2]>, mound: Option<MoundFile>) -> Self {
         let cell_m = default_cell_m();
         let (layers, right_end) = (default_layers(), ShorewardEndFile::default());
-        let (material, manning_s_m13) = (None, None);
-        Self { bed_m, still_water_level_m: 0.0, mound, material, layers, cell_m, manning_s_m13, right_end }
+        let (terrain, material, manning_s_m13) = (None, None, None);
+        Self { bed_m, still_water_level_m: 0.0, mound, terrain, material, layers, cell_m, manning_s_m13, right_end }
     }
 }
 
@@ -101,4 +104,24 @@ pub struct MoundFile {
     /// Material of the mound's surface: a name in `materials`. By default, the material of the bed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+}
+
+/// An STL file (ASCII or binary) of an open or closed surface on which units stand. The corners of each triangle must
+/// be in counter-clockwise order, seen from the side of the units. With water, the surface must be open and face up.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TerrainFile {
+    /// Path of the STL file, relative to the folder of the case file.
+    pub path: String,
+    /// Length unit of the file in metres: 1 for metres, 0.001 for millimetres.
+    #[serde(default = "default_scale")]
+    pub scale: f64,
+    /// y of the line along which the flume model takes its section of the surface [m]. Default: the middle of the domain. Not
+    /// in dry tests.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub section_y_m: Option<f64>,
+}
+
+fn default_scale() -> f64 {
+    1.0
 }

@@ -23,8 +23,8 @@ mod waves;
 
 pub use breakage::{BaseFile, BreakageFile, BreakageMaterialFile, ImpactMeasure, ImpactSelectionFile, RerunMethod};
 pub use domain::{BlockFile, BoxFile, DampingZoneFile, DomainFile, RelaxationZoneFile, Sides, WaterFile};
-pub use dry_test::{DropFile, DryDomainFile, DryFile, DryFlumeFile, DryOutputFile, DryTestFile, TerrainFile, TiltFile};
-pub use flume::{FlumeFile, MoundFile, ShorewardEndFile, SpongeFile};
+pub use dry_test::{DropFile, DryDomainFile, DryFile, DryFlumeFile, DryOutputFile, DryTestFile, TiltFile};
+pub use flume::{FlumeFile, MoundFile, ShorewardEndFile, SpongeFile, TerrainFile};
 pub use fracture::{
     BodyFrictionFile, ConstraintFile, FractureBodyFile, FractureFile, FractureMaterialFile, FractureOutputFile,
     FractureStopFile, Joints, LoadAxes, LoadFile, LoadedFaces, MethodFile, Softening, StrengthFile, VelocityFile,

@@ -17,8 +17,11 @@ const MOST_BED_POINTS: usize = 100_000;
 /// Bed, mound and still water of the whole flume; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flume {
-    /// Ground: the bed with the mound and the parts of the structure that lie on it.
+    /// Ground: the bed with the mound and the parts of the structure that lie on it. With a terrain that is not
+    /// the same across the domain, it is a profile below this terrain.
     pub profile: Profile,
+    /// Levels of the ground on and beside the terrain, if any.
+    pub bathymetry: Option<Bathymetry>,
     /// Bed without the mound.
     pub bed: Profile,
     /// Still water level [m].
@@ -41,6 +44,17 @@ pub struct Flume {
     pub right_end: RightEnd,
 }
 
+/// Ground of a flume with a terrain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bathymetry {
+    /// Ground without the terrain.
+    pub ground: Profile,
+    /// Ground of the flume model: the section of the terrain along a line, where it is above the other ground.
+    pub section: Profile,
+    /// y of this line [m].
+    pub y: f64,
+}
+
 /// A trapezoidal mound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mound {
@@ -59,9 +73,25 @@ impl Flume {
         [points[0][0], points[points.len() - 1][0]]
     }
 
+    /// Returns the ground that does not belong to the terrain.
+    pub fn ground(&self) -> &Profile {
+        self.bathymetry.as_ref().map_or(&self.profile, |bathymetry| &bathymetry.ground)
+    }
+
+    /// Returns the ground in the flume model.
+    pub fn section(&self) -> &Profile {
+        self.bathymetry.as_ref().map_or(&self.profile, |bathymetry| &bathymetry.section)
+    }
+
+    /// Returns the level of the ground, which includes a terrain, at (x, y) [m].
+    pub fn level(&self, x: f64, y: f64) -> f64 {
+        let terrain = self.parts.iter().find_map(|part| part.as_body().filter(|body| body.terrain_x.is_some()));
+        terrain.and_then(|body| body.surface.level(x, y)).map_or(self.profile.z(x), |z| z.max(self.profile.z(x)))
+    }
+
     /// Returns the still water depth at x [m], above the mound where there is one; 0 where the ground is dry.
     pub fn still_depth(&self, x: f64) -> f64 {
-        (self.still_water_level - self.profile.z(x)).max(0.0)
+        (self.still_water_level - self.section().z(x)).max(0.0)
     }
 
     /// Returns the still water depth at the seaward end of the flume [m].
@@ -106,7 +136,20 @@ pub fn validate(file: &FlumeFile, materials: [Option<usize>; 2], check: &mut Che
     let [material, of_mound] = materials;
     let cover = mound.zip(of_mound).map(|(Mound { toe_x, .. }, material)| Cover { x: toe_x, material });
     let (parts, covers) = (Vec::new(), cover.into_iter().collect());
-    Some(Flume { profile, bed, still_water_level, mound, parts, covers, material, layers, cell, friction, right_end })
+    Some(Flume {
+        profile,
+        bathymetry: None,
+        bed,
+        still_water_level,
+        mound,
+        parts,
+        covers,
+        material,
+        layers,
+        cell,
+        friction,
+        right_end,
+    })
 }
 
 fn validate_model(file: &FlumeFile, check: &mut Checker) {

@@ -25,6 +25,8 @@ pub struct BodyPart {
     pub scale: f64,
     /// Position of the origin of the file in the flume [m].
     pub origin: DVec3,
+    /// For a terrain, which faces up and continues downwards: x of the two ends of what rises above the bed [m].
+    pub terrain_x: Option<[f64; 2]>,
 }
 
 impl PartialEq for BodyPart {
@@ -37,6 +39,11 @@ impl BodyPart {
     /// Returns the triangles of the surface, counter-clockwise seen from outside [m].
     pub fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
         self.solid.triangles().iter().map(|triangle| triangle.map(|corner| self.solid.vertices()[corner as usize]))
+    }
+
+    /// Returns the triangles of the surface as units meet it [m]; for a terrain, without its sides and its lower side.
+    pub fn surface_triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
+        self.surface.triangles().iter().map(|triangle| triangle.map(|v| self.surface.vertices()[v as usize]))
     }
 
     /// Returns the nearest point of the surface [m] and the distance from it [m], negative inside. For a point further

@@ -93,7 +93,7 @@ impl Domain {
     /// Returns the ground and the boundaries of the area in which units stand.
     pub fn site(&self, flume: &Flume) -> Site {
         let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);
-        let (profile, covers, parts) = (flume.profile.clone(), flume.covers.clone(), flume.parts.clone());
+        let (profile, covers, parts) = (flume.ground().clone(), flume.covers.clone(), flume.parts.clone());
         Site { profile, covers, terrain: None, parts, x, width, sides, top_z }
     }
 

@@ -1,5 +1,6 @@
 //! Bed, structure and particle domain together.
 
+use super::bathymetry;
 use super::bed::{self, Flume};
 use super::domain::{self, Domain};
 use super::structure::{self, Room};
@@ -30,11 +31,19 @@ pub fn validate(
     };
     let room = Room::of(&file.domain, name);
     let parts = structure::place_on_bed(&file.structure, materials.parts, &mut flume, &room, check);
+    let terrain = match &file.flume.terrain {
+        Some(terrain) => bathymetry::place(terrain, name, &mut flume, &room, check),
+        None => Some(None),
+    };
     let domain = domain::validate(&file.domain, Some(&flume), file.numerics.smoothing_factor, check);
-    let (Some(parts), Some(domain)) = (parts, domain) else { return (Some(flume), None) };
+    let (Some(parts), Some(terrain), Some(domain)) = (parts, terrain, domain) else { return (Some(flume), None) };
     match structure::validate(parts, &file.structure, &file.domain.obstacles, &flume, domain.width, &room, check) {
         Some(parts) => {
             flume.parts = parts;
+            if let Some(terrain) = terrain {
+                bathymetry::check_place(&terrain, &flume, &domain, &room, check);
+                flume.parts.push(terrain);
+            }
             (Some(flume), Some(domain))
         }
         None => (Some(flume), None),

@@ -8,9 +8,11 @@
 //! | [`zones`] | damping zone and relaxation zone |
 //! | [`part`], [`body`], [`structure`] | parts of a structure, and obstacles |
 //! | [`ground`] | bed, structure and domain together |
-//! | [`terrain`] | triangulated terrain of dry tests |
+//! | [`terrain`] | triangle surface from an STL file on which units stand |
+//! | [`bathymetry`] | terrain under water |
 //! | [`site`] | ground and boundaries of the area in which units stand |
 
+pub mod bathymetry;
 pub mod bed;
 pub mod body;
 pub mod domain;

@@ -69,7 +69,7 @@ impl Part {
         match &self.shape {
             PartShape::Bed(polygon) | PartShape::Section(polygon) => polygon.bounds().map(|corner| corner.x),
             PartShape::Box(bounds) => [bounds.low.x, bounds.high.x],
-            PartShape::Body(body) => body.solid.bounds().map(|corner| corner.x),
+            PartShape::Body(body) => body.terrain_x.unwrap_or(body.solid.bounds().map(|corner| corner.x)),
         }
     }
 

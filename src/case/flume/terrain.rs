@@ -21,7 +21,8 @@ pub struct SiteTerrain {
     pub surface: Arc<Terrain>,
     /// Content of the STL file.
     pub content: Arc<Vec<u8>>,
-    scale: f64,
+    /// Metres per length unit of the file [-].
+    pub scale: f64,
 }
 
 impl SiteTerrain {
@@ -30,7 +31,7 @@ impl SiteTerrain {
 
     /// Returns the `terrain` entry for the case file in the run folder. The entry refers to the file [`Self::FILE`].
     pub(in crate::case) fn entry(&self) -> TerrainFile {
-        TerrainFile { path: Self::FILE.to_owned(), scale: self.scale }
+        TerrainFile { path: Self::FILE.to_owned(), scale: self.scale, section_y_m: None }
     }
 }
 

@@ -127,7 +127,9 @@ impl Case {
             let area: f64 = body.triangles().map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
             body.solid.volume_properties().volume.min(area * thickness)
         };
-        solid += self.flume.parts.iter().filter_map(Part::as_body).map(of_body).sum::<f64>();
+        let bodies = self.flume.parts.iter().filter_map(Part::as_body);
+        // A terrain raises the particles of the bed, and adds few.
+        solid += bodies.filter(|body| body.terrain_x.is_none()).map(of_body).sum::<f64>();
         let of_section = |polygon: &Polygon| {
             let around: f64 = polygon.edges().map(|[a, b]| a.distance(b)).sum();
             polygon.area().min(around * thickness) * domain.width

@@ -4,6 +4,7 @@ use crate::case::breakage::BreakageSettings;
 use crate::case::file::{CaseFile, ExternalWaveFile, StopFile, VelxFile, WaveFile, WaveSourceFile};
 use crate::case::flume::bed::Flume;
 use crate::case::flume::part::Part;
+use crate::case::flume::terrain::SiteTerrain;
 use crate::case::reference::Reference;
 use crate::case::units::Units;
 use crate::case::wave::Wave;
@@ -30,6 +31,9 @@ pub(super) fn self_contained(
     kept.structure =
         parts.map(|(file, part)| if file.stl.is_some() { part.entry(file) } else { file.clone() }).collect();
     flume.parts.iter().filter_map(Part::file).for_each(|(_, content)| read.extend(content));
+    if let Some(terrain) = &mut kept.flume.terrain {
+        SiteTerrain::FILE.clone_into(&mut terrain.path);
+    }
     kept.reference = kept.reference.as_ref().map(|_| Reference::FOLDER.to_owned());
     if let (Some(file), Some(units)) = (&mut kept.units, units) {
         units.make_self_contained(file, &mut read);

@@ -8,7 +8,7 @@ use super::reynolds;
 use super::self_contained::{self_contained, without_keys_free_at_start};
 use crate::case::breakage::{self, BreakageSettings};
 use crate::case::file::{CaseFile, Sides};
-use crate::case::flume::{bed::Flume, domain::Domain, ground, site::Site};
+use crate::case::flume::{bathymetry, bed::Flume, domain::Domain, ground, site::Site};
 use crate::case::output::gauges::{self, Gauge};
 use crate::case::output::{files, stop, stop::Stop};
 use crate::case::reading::check::{Checker, as_text};
@@ -77,6 +77,12 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
         stop,
     };
     region::validate_contents(&case, check);
+    let ends: &[usize] = match (&case.wave, case.wavemaker) {
+        (Wave::None, _) => &[],
+        (_, Wavemaker::OpenEnds { .. }) => &[0, 1],
+        _ => &[0],
+    };
+    bathymetry::check_ends(&case.flume, &case.domain, ends, check);
     validate_size(&case, check);
     crest::warn(&case, check);
     reynolds::warn(&case, check);

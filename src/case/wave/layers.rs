@@ -29,7 +29,7 @@ pub(super) fn validate(wave: &Wave, around: &Surroundings, check: &mut Checker) 
         }
         Wave::None | Wave::Solitary(_) | Wave::SolitaryInflow(_) | Wave::External(_) => return,
     };
-    let deepest = flume.profile.points().iter().map(|point| flume.still_water_level - point[1]).fold(0.0, f64::max);
+    let deepest = flume.section().points().iter().map(|point| flume.still_water_level - point[1]).fold(0.0, f64::max);
     let places = Places { periods, deepest, at_wavemaker: flume.still_depth(domain.x[0]), gravity: around.gravity };
     let shortest = places.periods[0];
     let Some(length) = places.wavelength_error(flume.layers).filter(|error| error.abs() <= LOST) else {

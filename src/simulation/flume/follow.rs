@@ -108,13 +108,13 @@ impl Simulation {
         if outwards * (edge - before) > 0.0 {
             let advance = self.advance_at(before, outwards);
             let (case, sampler) = (&self.case, neighbour.sampler());
-            let bed = |x: f64| case.flume.profile.z(x);
+            let (profile, level) = (&case.flume.profile, |x: f64, y: f64| case.flume.level(x, y));
             let surface = |x: f64| {
                 let place = DVec2::new(x, 0.5 * case.domain.width);
-                sampler.surface(place, bed(x)).unwrap_or(f64::NEG_INFINITY).max(bed(x))
+                sampler.surface(place, profile.z(x)).unwrap_or(f64::NEG_INFINITY).max(profile.z(x))
             };
             let at_rest = |_: f64, _: f64| DVec2::ZERO;
-            let mut strip = basin(case, &across(case), &bed, &surface, &at_rest);
+            let mut strip = basin(case, &across(case), &level, &surface, &at_rest);
             strip.x = [edge.min(before), edge.max(before)];
             let mut water = strip.fill(&tait(case));
             for position in &mut water.position {

@@ -300,6 +300,8 @@ fn in_water(case: &Case) -> impl Iterator<Item = &Part> {
 fn clear_part(water: &mut Water, part: &Part, outline: &Outline, dp: f64) {
     match &part.shape {
         PartShape::Bed(_) => (),
+        // The columns of water begin on it.
+        PartShape::Body(body) if body.terrain_x.is_some() => (),
         PartShape::Box(bounds) => clear_solid(water, dp, |point| bounds.locate(point)),
         PartShape::Body(body) => clear_solid(water, dp, |point| body.locate_within(point, dp)),
         PartShape::Section(polygon) => {
@@ -326,7 +328,8 @@ fn fixed_particles(case: &Case, outline: &Outline, across: &Across, reach: [Opti
     let mut particles = outline_particles(outline, across, domain.dp, layers, 2.0 * case.numerics.h);
     let bed = |x: f64| case.flume.profile.z(x);
     let (top, at_rest) = (|_: f64| domain.top_z, |_: f64, _: f64| DVec2::ZERO);
-    let mut sides = basin(case, across, &bed, &top, &at_rest);
+    let level = |x: f64, _: f64| bed(x);
+    let mut sides = basin(case, across, &level, &top, &at_rest);
     sides.x = [domain.x[0] - reach[0].unwrap_or(0.0), domain.x[1] + reach[1].unwrap_or(0.0)];
     let mut section = sides.side_section(domain.top_z);
     if case.flume.parts.iter().any(|part| part.section().is_some()) {
@@ -345,7 +348,7 @@ fn fixed_particles(case: &Case, outline: &Outline, across: &Across, reach: [Opti
         particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x)));
     }
     for body in case.flume.parts.iter().filter_map(Part::as_body) {
-        add_body(&mut particles, body, case);
+        add_body(&mut particles, body, across, case);
     }
     particles
 }
@@ -376,7 +379,7 @@ fn end_particles(case: &Case, across: &Across, end: &MovingEnd) -> Vec<(u32, Bou
 pub(super) fn basin<'a>(
     case: &Case,
     across: &Across,
-    bed: &'a dyn Fn(f64) -> f64,
+    bed: &'a dyn Fn(f64, f64) -> f64,
     surface: &'a dyn Fn(f64) -> f64,
     velocity: &'a dyn Fn(f64, f64) -> DVec2,
 ) -> Basin<'a> {
@@ -389,7 +392,7 @@ pub(super) fn basin<'a>(
 
 /// Returns the water at the start: a block, still water, or the flow of the flume model.
 fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -> Water {
-    let bed = |x: f64| case.flume.profile.z(x);
+    let bed = |x: f64, y: f64| case.flume.level(x, y);
     let surface = |x: f64| match (case.domain.water, flume) {
         (case::Water::Block { top_z, .. }, _) => top_z,
         (case::Water::StillLevel, Some(record)) => record.surface_level_m(x, start),

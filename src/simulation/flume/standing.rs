@@ -2,17 +2,22 @@
 
 use std::borrow::Cow;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::Units;
 use crate::{
     case::{self, BodyPart, Case, group},
     geometry::{open_space::OpenSpace, solid::Solid},
     rigid::BodyState,
-    sph::particles::{
-        boundary::BoundaryParticle,
-        standing::{TOUCHING, cover_below, cover_body},
-        unit::unit_particles,
+    sph::{
+        particles::{
+            bed::Across,
+            boundary::BoundaryParticle,
+            fill::Basin,
+            standing::{TOUCHING, cover_below, cover_body},
+            unit::unit_particles,
+        },
+        terms::wall_slip::Mirroring,
     },
 };
 
@@ -30,14 +35,18 @@ pub(super) fn space_around(case: &Case, y: [f64; 2], inset: f64) -> OpenSpace {
 
 /// Adds the particles of a body to those of bed and walls, whose surface vectors it changes. Where bed or side walls
 /// have particles, the body has none.
-pub(super) fn add_body(walls: &mut Vec<BoundaryParticle>, body: &BodyPart, case: &Case) {
+pub(super) fn add_body(walls: &mut Vec<BoundaryParticle>, body: &BodyPart, across: &Across, case: &Case) {
     let case::Domain { dp, width, .. } = case.domain;
     let [low, high] = body.solid.bounds();
     let space = space_around(case, [low.y, high.y], TOUCHING);
-    let Some(surface) = space.part_of(body.triangles()) else { return };
+    let Some(surface) = space.part_of(body.surface_triangles()) else { return };
     cover_below(walls, &surface, dp, |point| body.locate_within(point, dp).1);
-    let volume = body.solid.volume_properties().volume;
-    let mut own = unit_particles(|point| body.solid.project(point), low, high, volume, dp);
+    let mut own = if body.terrain_x.is_some() {
+        columns_below(body, across, case)
+    } else {
+        let volume = body.solid.volume_properties().volume;
+        unit_particles(|point| body.solid.project(point), low, high, volume, dp)
+    };
     own.retain(|particle| {
         let DVec3 { x, y, z } = particle.position;
         z > case.flume.profile.z(x) && (0.0..width).contains(&y)
@@ -45,6 +54,32 @@ pub(super) fn add_body(walls: &mut Vec<BoundaryParticle>, body: &BodyPart, case:
     cover_body(&mut own, &surface, &space);
     let thickness = case.numerics.boundary_layers as f64 * dp;
     walls.extend(own.into_iter().filter(|particle| particle.to_surface.length() < thickness));
+}
+
+/// Returns the particles of a terrain: columns that fill the space between the profile of the bed and the terrain, as
+/// water fills a basin. So they follow the surface, and their volumes are exact.
+fn columns_below(body: &BodyPart, across: &Across, case: &Case) -> Vec<BoundaryParticle> {
+    let profile = &case.flume.profile;
+    let (bed, top, at_rest) = (|x: f64, _: f64| profile.z(x), |_: f64| 0.0, |_: f64, _: f64| DVec2::ZERO);
+    let case::Domain { x, dp, .. } = case.domain;
+    let gravity = case.fluid.gravity;
+    let basin = Basin { x, across: *across, dp, bed: &bed, surface: &top, velocity: &at_rest, gravity };
+    let (columns, dx) = basin.columns();
+    let mut particles = Vec::new();
+    for (x, y) in columns.into_iter().flat_map(|x| across.rows(0).into_iter().map(move |y| (x, y))) {
+        let Some(level) = body.surface.level(x, y) else { continue };
+        let (heights, dz) = basin.column(profile.z(x), level);
+        particles.extend(heights.map(|z| {
+            let position = DVec3::new(x, y, z);
+            BoundaryParticle {
+                position,
+                to_surface: body.solid.project(position).0 - position,
+                volume: dx * across.spacing() * dz,
+                mirroring: Mirroring::Normal,
+            }
+        }));
+    }
+    particles
 }
 
 /// Changes the surface vectors at the units that stand on the bed. `walls` lists the particles of bed and walls, and

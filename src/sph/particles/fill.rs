@@ -18,8 +18,8 @@ pub struct Basin<'a> {
     pub across: Across,
     /// Particle spacing along x and z [m].
     pub dp: f64,
-    /// Bed level z(x) [m].
-    pub bed: &'a dyn Fn(f64) -> f64,
+    /// Bed level z(x, y) [m].
+    pub bed: &'a dyn Fn(f64, f64) -> f64,
     /// Level of the free surface z(x) [m].
     pub surface: &'a dyn Fn(f64) -> f64,
     /// Velocity of the water along x and z at (x, z) [m/s].
@@ -30,7 +30,7 @@ pub struct Basin<'a> {
 
 impl Basin<'_> {
     /// Returns the x positions of the columns and their spacing [m].
-    fn columns(&self) -> (Vec<f64>, f64) {
+    pub fn columns(&self) -> (Vec<f64>, f64) {
         let length = self.x[1] - self.x[0];
         let count = (length / self.dp).round().max(1.0);
         let spacing = length / count;
@@ -39,19 +39,19 @@ impl Basin<'_> {
 
     /// Returns the z levels of the particles in a column from the level `bed` to the level `top`, and their spacing
     /// [m]. A column lower than dp / 2 has no particles.
-    fn column(&self, bed: f64, top: f64) -> (impl Iterator<Item = f64> + use<>, f64) {
+    pub fn column(&self, bed: f64, top: f64) -> (impl Iterator<Item = f64> + use<>, f64) {
         let count = ((top - bed) / self.dp).round().max(0.0);
         let spacing = (top - bed) / count.max(1.0);
         ((0..count as u32).map(move |k| bed + (f64::from(k) + 0.5) * spacing), spacing)
     }
 
-    /// Returns points (x, z) on the wetted face of a side wall, from the bed up to the level `top` [m], each with the
+    /// Returns points (x, z) on the wetted face of the side wall at y = 0, from the bed up to the level `top` [m], each with the
     /// area that it represents [m2].
     pub fn side_section(&self, top: f64) -> Vec<(DVec2, f64)> {
         let (columns, dx) = self.columns();
         let mut points = Vec::new();
         for x in columns {
-            let (heights, dz) = self.column((self.bed)(x), top);
+            let (heights, dz) = self.column((self.bed)(x, 0.0), top);
             points.extend(heights.map(|z| (DVec2::new(x, z), dx * dz)));
         }
         points
@@ -63,12 +63,19 @@ impl Basin<'_> {
         let mut water = Water::default();
         for x in columns {
             let surface = (self.surface)(x);
-            let (heights, dz) = self.column((self.bed)(x), surface);
-            for z in heights {
-                let velocity = (self.velocity)(x, z);
-                let density = tait.density(tait.rho0 * self.gravity * (surface - z));
-                for j in 0..self.across.count {
-                    water.position.push(DVec3::new(x, (f64::from(j) + 0.5) * self.across.spacing(), z));
+            let across: Vec<f64> = self.across.rows(0);
+            let columns: Vec<(Vec<f64>, f64)> = across
+                .iter()
+                .map(|y| self.column((self.bed)(x, *y), surface))
+                .map(|(heights, dz)| (heights.collect(), dz))
+                .collect();
+            let highest = columns.iter().map(|(heights, _)| heights.len()).max().unwrap_or(0);
+            for k in 0..highest {
+                for (y, (heights, dz)) in across.iter().zip(&columns) {
+                    let Some(&z) = heights.get(k) else { continue };
+                    let velocity = (self.velocity)(x, z);
+                    let density = tait.density(tait.rho0 * self.gravity * (surface - z));
+                    water.position.push(DVec3::new(x, *y, z));
                     water.velocity.push(DVec3::new(velocity.x, 0.0, velocity.y));
                     water.density.push(density);
                     // With the local density, the volumes m / rho fill the basin exactly. With rho0 instead, the mass
@@ -150,7 +157,7 @@ mod tests {
             x: [0.0, 2.0],
             across: Across { width: 0.1, count: 5, walls: false },
             dp: 0.02,
-            bed: &|x| 0.1 * x,
+            bed: &|x, _| 0.1 * x,
             surface: &|_| 0.3,
             velocity: &|_, _| DVec2::ZERO,
             gravity: 9.81,

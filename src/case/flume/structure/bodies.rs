@@ -82,7 +82,7 @@ fn check_extent(key: &str, part: &Part, body: &BodyPart, width: f64, room: &Room
 }
 
 /// Checks that no other part is in the body or near it. The points of `surface` have this `spacing` [m].
-fn check_overlap(
+pub fn check_overlap(
     key: &str,
     before: &[Part],
     all: &[Part],

@@ -7,7 +7,7 @@
 //! | `boxes` | checks boxes |
 //! | `bodies` | checks parts of any shape |
 
-mod bodies;
+pub(super) mod bodies;
 mod boxes;
 mod read;
 mod sections;

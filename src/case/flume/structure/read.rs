@@ -180,6 +180,7 @@ fn body(
         file_name: format!("part_{}.stl", index + 1),
         scale: file.scale,
         origin,
+        terrain_x: None,
     })
 }
 

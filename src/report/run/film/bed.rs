@@ -42,11 +42,13 @@ pub fn structure(run: &RunFolder) -> Option<Series> {
     }
     for body in &run.summary.bodies {
         // A film without the body is better than no film.
-        let Ok(solid) = stl::read(&run.dir.join(&body.file), body.scale) else { continue };
+        let path = run.dir.join(&body.file);
+        let Ok(content) = std::fs::read(&path) else { continue };
+        let Ok(surface) = stl::parse_terrain(&content, &path, body.scale) else { continue };
         let first = mesh.points.len() as u32;
         let origin = DVec3::from_array(body.origin_m);
-        mesh.points.extend(solid.vertices().iter().map(|vertex| (*vertex + origin).as_vec3().to_array()));
-        mesh.triangles.extend(solid.triangles().iter().map(|triangle| triangle.map(|corner| first + corner)));
+        mesh.points.extend(surface.vertices().iter().map(|vertex| (*vertex + origin).as_vec3().to_array()));
+        mesh.triangles.extend(surface.triangles().iter().map(|triangle| triangle.map(|corner| first + corner)));
     }
     (!mesh.points.is_empty()).then(|| Series::new("Structure", "#8d8370", 0.45, vec![mesh]))
 }

@@ -42,7 +42,7 @@ pub(super) fn gauge_row(simulation: &Simulation, values: [&[Option<f64>]; 2], lo
         let sample = || sampler.sample(at).filter(|_| is_between(at.x));
         match &gauge.quantity {
             Quantity::Elevation => {
-                let bed = case.flume.profile.z(at.x);
+                let bed = case.flume.level(at.x, at.y);
                 let level = sampler.surface(at.truncate(), bed).filter(|_| is_between(at.x));
                 row.push(level.map_or(f64::NAN, |z| z - case.flume.still_water_level));
                 let wetted = is_between(at.x).then(|| sampler.wetted_length(at.truncate(), bed));

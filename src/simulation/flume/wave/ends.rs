@@ -102,10 +102,10 @@ impl MovingEnd {
             None => self.wavemaker.x_at_surface_m(t) + self.state.absorbed.displacement_m,
         };
         let (x, width) = (front + self.inwards * absorption.gauge_m, case.domain.width);
-        let bed = case.flume.profile.z(x);
+        let bed = case.flume.section().z(x);
         let measured = match self.open {
             Some(_) => {
-                let bed_at = |x: f64| case.flume.profile.z(x);
+                let bed_at = |x: f64| case.flume.section().z(x);
                 Some(bed + sampler.hydrostatic_depth(x, absorption.gauge_m, width, bed_at))
             }
             None => sampler.surface(DVec2::new(x, 0.5 * width), bed),
@@ -118,7 +118,7 @@ impl MovingEnd {
             (Some(_), Some(record)) => {
                 absorption.smooth(absorbed, excess, dt);
                 let (level, still) = (record.surface_level_m(front, t), case.flume.still_depth(front));
-                let depth = (level - case.flume.profile.z(front)).max(LEAST_DEPTH * still);
+                let depth = (level - case.flume.section().z(front)).max(LEAST_DEPTH * still);
                 let outward = outward_velocity_m_s(depth, absorbed.excess_m(), case.fluid.gravity);
                 absorption.move_by(absorbed, -self.inwards * outward, dt);
             }

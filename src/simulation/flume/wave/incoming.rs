@@ -63,7 +63,7 @@ pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
     };
     let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
     let record = flume_model::run(&FlumeSetup {
-        profile: case.flume.profile.clone(),
+        profile: case.flume.section().clone(),
         still_level_m: case.flume.still_water_level,
         gravity_m_s2: case.fluid.gravity,
         wave,
@@ -142,7 +142,7 @@ pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
 /// time is the duration of the run. 0 for other waves, or if the wave does not reach x.
 pub(crate) fn passing_time(case: &Case, record: Option<&FlumeRecord>, start: f64, x: f64) -> f64 {
     let (Some(record), Wave::Solitary(_) | Wave::SolitaryInflow(_)) = (record, &case.wave) else { return 0.0 };
-    let rest = (case.flume.profile.z(x) - case.flume.still_water_level).max(0.0);
+    let rest = (case.flume.section().z(x) - case.flume.still_water_level).max(0.0);
     let rise = |time: &&f64| record.elevation(x, **time) - rest;
     let in_run: Vec<&f64> =
         record.times_s().iter().filter(|time| (start..=start + case.stop.duration).contains(*time)).collect();
