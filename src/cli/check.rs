@@ -136,7 +136,7 @@ fn print(case: &Case) {
             if case.wavemaker.follows_flume_model() {
                 println!("; inflow");
             } else {
-                let motion = case.wavemaker.motion(wave, *ramp_periods, case.flume.profile.z(case.domain.x[0]));
+                let motion = case.wavemaker.motion(wave, *ramp_periods, case.flume.section().z(case.domain.x[0]));
                 println!("; stroke {:.4} m at the still water level", motion.stroke_m());
             }
         }

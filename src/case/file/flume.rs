@@ -116,8 +116,8 @@ pub struct TerrainFile {
     /// Length unit of the file in metres: 1 for metres, 0.001 for millimetres.
     #[serde(default = "default_scale")]
     pub scale: f64,
-    /// y of the line along which the flume model takes its section of the surface [m]. Default: the middle of the domain. Not
-    /// in dry tests.
+    /// y of the line along which the flume model takes its section of the surface [m]. Default: the middle of the domain.
+    /// Dry tests do not have this key.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section_y_m: Option<f64>,
 }

@@ -39,7 +39,8 @@ const TOLERANCE: f64 = 1e-3;
 /// Thickness of the body below the lowest ground, divided by the particle spacing [-]: more than the layers of boundary
 /// particles.
 const DEPTH: f64 = 10.0;
-/// Largest difference of the ground across a moving end from that of the flume model, divided by the particle spacing [-].
+/// Largest difference of the ground across a moving end from that of the flume model, divided by the particle spacing
+/// [-].
 const UNEVEN: f64 = 1.0;
 /// Number of points across a moving end at which the ground is compared.
 const SAMPLES: u32 = 100;
@@ -61,10 +62,21 @@ pub(super) fn place(
     let y = section_line(file, &terrain, room, check)?;
     let section = raised(flume, &terrain, [y, y], dp, check)?;
     let Some(width) = room.width else {
-        flume.profile = section;
+        if section == flume.profile {
+            let advice = "raise the surface above the bed, or correct its scale";
+            check.reject(KEY, "hidden in the bed along the section", "above the bed at one place at least", advice);
+            return None;
+        }
+        (flume.profile, flume.terrain) = (section, Some(terrain));
         return Some(None);
     };
+    let before = check.count();
+    terrain::validate_place(&terrain, &flume.profile, room.x, width, room.top_z, check);
+    if check.count() > before {
+        return None;
+    }
     let lowest = raised(flume, &terrain, [0.0, width], dp, check)?;
+    flume.terrain = Some(terrain.clone());
     let ground = std::mem::replace(&mut flume.profile, lowest);
     let inset = TOUCHING * dp;
     let Some(above) = surface_above(flume, &terrain, room, width, inset) else {
@@ -197,17 +209,11 @@ fn surface_above(flume: &Flume, terrain: &SiteTerrain, room: &Room, width: f64, 
     space.part_of(terrain.surface.triangles().iter().map(corners))
 }
 
-/// Checks that the terrain is below the top of the walls, and that no part of the structure is near it.
+/// Checks that no part of the structure is near what rises above the bed.
 pub(super) fn check_place(part: &Part, flume: &Flume, domain: &Domain, room: &Room, check: &mut Checker) {
     let Some(body) = part.as_body() else { return };
     let space = OpenSpace::new(&flume.profile, room.x, Some([0.0, domain.width]), TOUCHING * domain.dp);
     let Some(surface) = space.part_of(body.surface_triangles()) else { return };
-    let highest = surface.triangles().flatten().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
-    if highest > room.top_z {
-        let allowed = format!("at most z = {} m in the domain, the top of the walls", as_text(room.top_z));
-        let advice = "raise `domain.top_z_m`, or correct `flume.terrain.scale`";
-        check.reject(KEY, format!("a surface up to z = {} m", as_text(highest)), allowed, advice);
-    }
     bodies::check_overlap(KEY, &flume.parts, &flume.parts, &surface, domain.dp, room, check);
 }
 

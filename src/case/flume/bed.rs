@@ -1,6 +1,7 @@
 //! The validated flume: bed, mound and still water level.
 
 use super::part::Part;
+use super::terrain::SiteTerrain;
 use crate::case::file::{FlumeFile, MoundFile, ShorewardEndFile};
 use crate::case::reading::check::{Checker, as_text, at_least, lower_limit, more_than};
 use crate::geometry::profile::Profile;
@@ -20,7 +21,9 @@ pub struct Flume {
     /// Ground: the bed with the mound and the parts of the structure that lie on it. With a terrain that is not
     /// the same across the domain, it is a profile below this terrain.
     pub profile: Profile,
-    /// Levels of the ground on and beside the terrain, if any.
+    /// The terrain, if any.
+    pub terrain: Option<SiteTerrain>,
+    /// Ground below the terrain and in the flume model, if the terrain is not the same across the domain.
     pub bathymetry: Option<Bathymetry>,
     /// Bed without the mound.
     pub bed: Profile,
@@ -71,6 +74,12 @@ impl Flume {
     pub fn ends(&self) -> [f64; 2] {
         let points = self.bed.points();
         [points[0][0], points[points.len() - 1][0]]
+    }
+
+    /// Returns name and content of each STL file that a run saves next to its case file.
+    pub fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
+        let of_terrain = self.terrain.iter().map(|terrain| (SiteTerrain::FILE, terrain.content.as_slice()));
+        self.parts.iter().filter_map(Part::file).chain(of_terrain)
     }
 
     /// Returns the ground that does not belong to the terrain.
@@ -138,6 +147,7 @@ pub fn validate(file: &FlumeFile, materials: [Option<usize>; 2], check: &mut Che
     let (parts, covers) = (Vec::new(), cover.into_iter().collect());
     Some(Flume {
         profile,
+        terrain: None,
         bathymetry: None,
         bed,
         still_water_level,

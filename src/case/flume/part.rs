@@ -119,9 +119,10 @@ impl Part {
         }
     }
 
-    /// Returns name and content of the STL file that a run saves next to its case file, if the part needs one.
+    /// Returns name and content of the STL file that a run saves next to its case file, if the part needs one of its own.
     pub fn file(&self) -> Option<(&str, &[u8])> {
-        self.as_body().map(|body| (body.file_name.as_str(), body.content.as_slice()))
+        let body = self.as_body().filter(|body| body.terrain_x.is_none())?;
+        Some((body.file_name.as_str(), body.content.as_slice()))
     }
 
     /// Returns the entry for the case file in the run folder, which refers only to files in that folder.

@@ -62,11 +62,11 @@ fn shoaled(crest: f64, from: f64, to: f64) -> f64 {
 fn shoreward(case: &Case, crest: f64) -> f64 {
     let (flume, [x0, x1]) = (&case.flume, case.domain.x);
     let depth = flume.still_depth(x0);
-    let highest = flume.profile.extremes_between([x0, x1]).1 - flume.still_water_level;
+    let highest = flume.section().extremes_between([x0, x1]).1 - flume.still_water_level;
     if highest >= 0.0 {
-        let ends_at_top = flume.profile.z(x1) - flume.still_water_level >= highest;
+        let ends_at_top = flume.section().z(x1) - flume.still_water_level >= highest;
         let place = shoreline(case).filter(|_| ends_at_top);
-        return place.map_or(0.0, |x| run_up(case, crest, depth, flume.profile.slope(x)));
+        return place.map_or(0.0, |x| run_up(case, crest, depth, flume.section().slope(x)));
     }
     let at_end = flume.still_depth(x1);
     // Behind a submerged mound the wave has split or broken; its rise at the wall is not estimated.
@@ -82,11 +82,11 @@ fn shoreward(case: &Case, crest: f64) -> f64 {
 /// Returns the first x in the domain where the bed rises above still water [m].
 fn shoreline(case: &Case) -> Option<f64> {
     let (flume, [x0, x1]) = (&case.flume, case.domain.x);
-    let corners = flume.profile.points().iter().map(|point| point[0]).filter(|x| (x0..x1).contains(x));
+    let corners = flume.section().points().iter().map(|point| point[0]).filter(|x| (x0..x1).contains(x));
     let mut places: Vec<f64> = corners.chain([x0, x1]).collect();
     places.sort_by(f64::total_cmp);
     places.windows(2).find_map(|pair| {
-        let [low, high] = [pair[0], pair[1]].map(|x| flume.profile.z(x) - flume.still_water_level);
+        let [low, high] = [pair[0], pair[1]].map(|x| flume.section().z(x) - flume.still_water_level);
         (low < 0.0 && high >= 0.0).then(|| pair[0] - low / (high - low) * (pair[1] - pair[0]) - 1e-9)
     })
 }

@@ -3,7 +3,6 @@
 use crate::case::breakage::BreakageSettings;
 use crate::case::file::{CaseFile, ExternalWaveFile, StopFile, VelxFile, WaveFile, WaveSourceFile};
 use crate::case::flume::bed::Flume;
-use crate::case::flume::part::Part;
 use crate::case::flume::terrain::SiteTerrain;
 use crate::case::reference::Reference;
 use crate::case::units::Units;
@@ -30,7 +29,7 @@ pub(super) fn self_contained(
     let parts = file.structure.iter().zip(&flume.parts);
     kept.structure =
         parts.map(|(file, part)| if file.stl.is_some() { part.entry(file) } else { file.clone() }).collect();
-    flume.parts.iter().filter_map(Part::file).for_each(|(_, content)| read.extend(content));
+    flume.files().for_each(|(_, content)| read.extend(content));
     if let Some(terrain) = &mut kept.flume.terrain {
         SiteTerrain::FILE.clone_into(&mut terrain.path);
     }

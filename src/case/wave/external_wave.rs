@@ -62,7 +62,7 @@ pub fn validate(
     }
     let x0 = domain.x[0];
     let place = Place {
-        bed_z_m: flume.profile.z(x0),
+        bed_z_m: flume.section().z(x0),
         still_water_z_m: flume.still_water_level,
         gravity_m_s2: gravity,
         layers: match &file.source {

@@ -59,7 +59,7 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
             warn_of_slope(flume, domain, depth, check);
         }
         Wave::Regular { wave, ramp_periods } => {
-            let bed_z = flume.profile.z(domain.x[0]);
+            let bed_z = flume.section().z(domain.x[0]);
             let top_share = wavemaker.shape(bed_z).relative_displacement(domain.top_z - bed_z, depth).max(1.0);
             let stroke = 2.0 * top_share * wavemaker.motion(wave, *ramp_periods, bed_z).max_displacement_m();
             validate_sweep(stroke, wave.height_m, domain, check);
@@ -110,7 +110,7 @@ fn validate_sweep(stroke: f64, height: f64, domain: &Domain, check: &mut Checker
 /// Warns of a sloping bed at the wavemaker, because wavemaker theory assumes a horizontal bed.
 fn warn_of_slope(flume: &Flume, domain: &Domain, depth: f64, check: &mut Checker) {
     let x0 = domain.x[0];
-    let rise = flume.profile.z(x0 + depth) - flume.profile.z(x0);
+    let rise = flume.section().z(x0 + depth) - flume.section().z(x0);
     if rise.abs() > EVEN_SLOPE * depth {
         check.warn(format!(
             "domain.x_m[0] = {}: the bed level changes by {} m over a distance of one depth, but wavemaker theory \

@@ -160,7 +160,7 @@ impl Surroundings<'_> {
         if self.wavemaker.follows_flume_model() {
             return Some(flume.still_water_level - flume.offshore_depth());
         }
-        Some(flume.profile.z(self.domain?.x[0]))
+        Some(flume.section().z(self.domain?.x[0]))
     }
 
     /// Returns the still water depth where the wave is generated [m]. Adds an error if the ground there is dry.

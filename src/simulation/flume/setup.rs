@@ -296,14 +296,12 @@ fn in_water(case: &Case) -> impl Iterator<Item = &Part> {
     case.flume.parts.iter().filter(|part| !matches!(part.shape, PartShape::Bed(_)))
 }
 
-/// Removes the water inside a part and moves other water away from it; `outline` is the outline of all sections.
+/// Moves the water out of a part, unless the part is a terrain; `outline` is the outline of all sections.
 fn clear_part(water: &mut Water, part: &Part, outline: &Outline, dp: f64) {
     match &part.shape {
-        PartShape::Bed(_) => (),
-        // The columns of water begin on it.
-        PartShape::Body(body) if body.terrain_x.is_some() => (),
         PartShape::Box(bounds) => clear_solid(water, dp, |point| bounds.locate(point)),
-        PartShape::Body(body) => clear_solid(water, dp, |point| body.locate_within(point, dp)),
+        PartShape::Body(body) if body.terrain_x.is_none() => clear_solid(water, dp, |at| body.locate_within(at, dp)),
+        PartShape::Bed(_) | PartShape::Body(_) => (),
         PartShape::Section(polygon) => {
             let [low, high] = polygon.bounds();
             clear_solid(water, dp, |point| {
@@ -326,10 +324,9 @@ fn clear_part(water: &mut Water, part: &Part, outline: &Outline, dp: f64) {
 fn fixed_particles(case: &Case, outline: &Outline, across: &Across, reach: [Option<f64>; 2]) -> Vec<BoundaryParticle> {
     let (domain, layers) = (&case.domain, case.numerics.boundary_layers as u32);
     let mut particles = outline_particles(outline, across, domain.dp, layers, 2.0 * case.numerics.h);
-    let bed = |x: f64| case.flume.profile.z(x);
+    let bed = |x: f64, _: f64| case.flume.profile.z(x);
     let (top, at_rest) = (|_: f64| domain.top_z, |_: f64, _: f64| DVec2::ZERO);
-    let level = |x: f64, _: f64| bed(x);
-    let mut sides = basin(case, across, &level, &top, &at_rest);
+    let mut sides = basin(case, across, &bed, &top, &at_rest);
     sides.x = [domain.x[0] - reach[0].unwrap_or(0.0), domain.x[1] + reach[1].unwrap_or(0.0)];
     let mut section = sides.side_section(domain.top_z);
     if case.flume.parts.iter().any(|part| part.section().is_some()) {
@@ -345,7 +342,7 @@ fn fixed_particles(case: &Case, outline: &Outline, across: &Across, reach: [Opti
     for obstacle in &obstacles {
         let solid = box_particles(obstacle, domain.dp, thickness).into_iter();
         // On a slope, a corner of the obstacle can be below the bed, where the bed already has particles.
-        particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x)));
+        particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x, 0.0)));
     }
     for body in case.flume.parts.iter().filter_map(Part::as_body) {
         add_body(&mut particles, body, across, case);

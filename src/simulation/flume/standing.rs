@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::Units;
 use crate::{
@@ -13,7 +13,7 @@ use crate::{
         particles::{
             bed::Across,
             boundary::BoundaryParticle,
-            fill::Basin,
+            fill::{column, columns},
             standing::{TOUCHING, cover_below, cover_body},
             unit::unit_particles,
         },
@@ -59,16 +59,12 @@ pub(super) fn add_body(walls: &mut Vec<BoundaryParticle>, body: &BodyPart, acros
 /// Returns the particles of a terrain: columns that fill the space between the profile of the bed and the terrain, as
 /// water fills a basin. So they follow the surface, and their volumes are exact.
 fn columns_below(body: &BodyPart, across: &Across, case: &Case) -> Vec<BoundaryParticle> {
-    let profile = &case.flume.profile;
-    let (bed, top, at_rest) = (|x: f64, _: f64| profile.z(x), |_: f64| 0.0, |_: f64, _: f64| DVec2::ZERO);
-    let case::Domain { x, dp, .. } = case.domain;
-    let gravity = case.fluid.gravity;
-    let basin = Basin { x, across: *across, dp, bed: &bed, surface: &top, velocity: &at_rest, gravity };
-    let (columns, dx) = basin.columns();
+    let (profile, dp) = (&case.flume.profile, case.domain.dp);
+    let (along, dx) = columns(case.domain.x, dp);
     let mut particles = Vec::new();
-    for (x, y) in columns.into_iter().flat_map(|x| across.rows(0).into_iter().map(move |y| (x, y))) {
+    for (x, y) in along.into_iter().flat_map(|x| across.rows(0).into_iter().map(move |y| (x, y))) {
         let Some(level) = body.surface.level(x, y) else { continue };
-        let (heights, dz) = basin.column(profile.z(x), level);
+        let (heights, dz) = column(profile.z(x), level, dp);
         particles.extend(heights.map(|z| {
             let position = DVec3::new(x, y, z);
             BoundaryParticle {

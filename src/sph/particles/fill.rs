@@ -28,30 +28,30 @@ pub struct Basin<'a> {
     pub gravity: f64,
 }
 
+/// Returns the x positions of the columns between two `x`, and their spacing, about `dp` [m].
+pub fn columns(x: [f64; 2], dp: f64) -> (Vec<f64>, f64) {
+    let length = x[1] - x[0];
+    let count = (length / dp).round().max(1.0);
+    let spacing = length / count;
+    ((0..count as u32).map(|i| x[0] + (f64::from(i) + 0.5) * spacing).collect(), spacing)
+}
+
+/// Returns the z levels of the particles in a column from the level `bed` to the level `top`, and their spacing, about
+/// `dp` [m]. A column lower than dp / 2 has no particles.
+pub fn column(bed: f64, top: f64, dp: f64) -> (impl Iterator<Item = f64>, f64) {
+    let count = ((top - bed) / dp).round().max(0.0);
+    let spacing = (top - bed) / count.max(1.0);
+    ((0..count as u32).map(move |k| bed + (f64::from(k) + 0.5) * spacing), spacing)
+}
+
 impl Basin<'_> {
-    /// Returns the x positions of the columns and their spacing [m].
-    pub fn columns(&self) -> (Vec<f64>, f64) {
-        let length = self.x[1] - self.x[0];
-        let count = (length / self.dp).round().max(1.0);
-        let spacing = length / count;
-        ((0..count as u32).map(|i| self.x[0] + (f64::from(i) + 0.5) * spacing).collect(), spacing)
-    }
-
-    /// Returns the z levels of the particles in a column from the level `bed` to the level `top`, and their spacing
-    /// [m]. A column lower than dp / 2 has no particles.
-    pub fn column(&self, bed: f64, top: f64) -> (impl Iterator<Item = f64> + use<>, f64) {
-        let count = ((top - bed) / self.dp).round().max(0.0);
-        let spacing = (top - bed) / count.max(1.0);
-        ((0..count as u32).map(move |k| bed + (f64::from(k) + 0.5) * spacing), spacing)
-    }
-
     /// Returns points (x, z) on the wetted face of the side wall at y = 0, from the bed up to the level `top` [m], each with the
     /// area that it represents [m2].
     pub fn side_section(&self, top: f64) -> Vec<(DVec2, f64)> {
-        let (columns, dx) = self.columns();
+        let (columns, dx) = columns(self.x, self.dp);
         let mut points = Vec::new();
         for x in columns {
-            let (heights, dz) = self.column((self.bed)(x, 0.0), top);
+            let (heights, dz) = column((self.bed)(x, 0.0), top, self.dp);
             points.extend(heights.map(|z| (DVec2::new(x, z), dx * dz)));
         }
         points
@@ -59,19 +59,19 @@ impl Basin<'_> {
 
     /// Creates the water particles with hydrostatic density and with the velocity field `self.velocity`.
     pub fn fill(&self, tait: &Tait) -> Water {
-        let (columns, dx) = self.columns();
+        let (columns, dx) = columns(self.x, self.dp);
         let mut water = Water::default();
         for x in columns {
             let surface = (self.surface)(x);
             let across: Vec<f64> = self.across.rows(0);
-            let columns: Vec<(Vec<f64>, f64)> = across
+            let heights_at: Vec<(Vec<f64>, f64)> = across
                 .iter()
-                .map(|y| self.column((self.bed)(x, *y), surface))
+                .map(|y| column((self.bed)(x, *y), surface, self.dp))
                 .map(|(heights, dz)| (heights.collect(), dz))
                 .collect();
-            let highest = columns.iter().map(|(heights, _)| heights.len()).max().unwrap_or(0);
+            let highest = heights_at.iter().map(|(heights, _)| heights.len()).max().unwrap_or(0);
             for k in 0..highest {
-                for (y, (heights, dz)) in across.iter().zip(&columns) {
+                for (y, (heights, dz)) in across.iter().zip(&heights_at) {
                     let Some(&z) = heights.get(k) else { continue };
                     let velocity = (self.velocity)(x, z);
                     let density = tait.density(tait.rho0 * self.gravity * (surface - z));

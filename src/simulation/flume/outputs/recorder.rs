@@ -21,7 +21,7 @@ use super::{
 };
 use crate::simulation::flume::{Simulation, Units, measures::water_at_impacts::pressure_places, step::PreparedStep};
 use crate::{
-    case::{BreakageSettings, Part, ROWS_FILE, Reference, Wave, group},
+    case::{BreakageSettings, ROWS_FILE, Reference, Wave, group},
     output::{
         CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges,
     },
@@ -75,7 +75,7 @@ impl Recorder {
                 write_atomically(&dir.join(name), content)?;
             }
         }
-        for (name, content) in case.flume.parts.iter().filter_map(Part::file) {
+        for (name, content) in case.flume.files() {
             write_atomically(&dir.join(name), content)?;
         }
         if let Some(record) = &simulation.flume {

@@ -213,7 +213,7 @@ fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) -> Option<Wav
         }));
     }
     let place = case.domain.x[0];
-    let bed = case.flume.profile.z(place);
+    let bed = case.flume.section().z(place);
     let (motion, depth) = match case.wave {
         Wave::External(ref wave) => {
             let end = (start + case.stop.duration).max(start + LONGEST_INTERVAL);
