@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 
 /// Position and motion of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(from = "BodyNumbers", into = "BodyNumbers")]
 pub struct BodyState {
     /// Position of the centre of mass [m]. At periodic sides, y is not wrapped into the domain.
     pub position: DVec3,
@@ -23,38 +22,6 @@ impl BodyState {
     /// Returns the state of a body at rest.
     pub fn at_rest(position: DVec3, rotation: DQuat) -> Self {
         Self { position, rotation, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO }
-    }
-}
-
-/// Serialized form of [`BodyState`].
-#[derive(Serialize, Deserialize)]
-struct BodyNumbers {
-    position: [f64; 3],
-    /// Quaternion components x, y, z, w.
-    rotation: [f64; 4],
-    velocity: [f64; 3],
-    angular_velocity: [f64; 3],
-}
-
-impl From<BodyState> for BodyNumbers {
-    fn from(state: BodyState) -> Self {
-        Self {
-            position: state.position.to_array(),
-            rotation: state.rotation.to_array(),
-            velocity: state.velocity.to_array(),
-            angular_velocity: state.angular_velocity.to_array(),
-        }
-    }
-}
-
-impl From<BodyNumbers> for BodyState {
-    fn from(numbers: BodyNumbers) -> Self {
-        Self {
-            position: DVec3::from_array(numbers.position),
-            rotation: DQuat::from_array(numbers.rotation),
-            velocity: DVec3::from_array(numbers.velocity),
-            angular_velocity: DVec3::from_array(numbers.angular_velocity),
-        }
     }
 }
 

@@ -35,6 +35,7 @@ impl RigidWorld {
         self.velocity.push(body.velocity);
         self.contact_now.push(Load::default());
         self.contact_mean.push(Load::default());
+        self.is_still.push(self.inertias[kind].is_fixed() && body.velocity == DVec3::ZERO);
         self.states.push(body);
         self.search.add_body();
         self.update_results();

@@ -39,7 +39,7 @@ pub struct ContactKey {
 }
 
 /// A point where two surfaces overlap or are near each other.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ContactPoint {
     /// Identity of the contact.
     pub key: ContactKey,
@@ -69,46 +69,55 @@ pub struct Substep {
     pub time: f64,
 }
 
+impl Substep {
+    /// Time at the start of the substep [s].
+    pub fn start(&self) -> f64 {
+        self.time - self.dt
+    }
+}
+
 /// An active contact with its history.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
-    /// Identity of the contact.
-    pub key: ContactKey,
-    /// Contact normal at the last evaluation.
-    pub normal: DVec3,
+    /// Contact point at the last evaluation; the next search starts from its `core`.
+    pub point: ContactPoint,
     /// Elongation of the tangential spring [m].
     pub spring: DVec3,
     /// Rotation of the rolling spring [rad].
     pub rolling_spring: DVec3,
-    /// Overlap [m].
-    pub overlap: f64,
     /// Overlap at which the contact force is zero [m]. It can be above 0 only on a triangle surface; see
     /// [`Self::started`] and [`Self::continued_as`].
     pub initial_overlap: f64,
-    /// Nearest point as in [`ContactPoint::core`] [m]; the next search starts there.
-    pub core: DVec3,
-    /// Force on the first body [N].
+    /// Force [N] and torque of the rolling resistance [N m] on the first body.
     pub force: DVec3,
+    pub rolling_torque: DVec3,
     /// Dashpot part of the normal force [N].
     pub dashpot: f64,
     /// Energy stored in the normal, tangential and rolling springs [J].
     pub elastic: [f64; 3],
+    /// Time at rest that the record of the contact does not contain yet [s].
+    pub unrecorded: f64,
 }
 
 impl Contact {
     /// Returns the contact with unloaded springs, for an overlap that does not exceed the initial overlap.
     pub fn idle(self, point: &ContactPoint, substep: Substep) -> Self {
-        let Self { key, initial_overlap, .. } = self;
-        Self { key, initial_overlap, ..Self::started(point, substep) }
+        let Self { initial_overlap, .. } = self;
+        Self { initial_overlap, ..Self::started(point, substep) }
+    }
+
+    /// Returns the contact after a substep in which neither body moves.
+    pub fn held(self, substep: Substep) -> Self {
+        Self { unrecorded: self.unrecorded + substep.dt, ..self }
     }
 
     /// Returns the contact with the key of `point`. If the part has moved to another element of a triangle surface,
     /// the initial overlap changes to keep the effective overlap (overlap minus initial overlap).
     pub fn continued_as(self, point: &ContactPoint) -> Self {
-        let stays = self.key == point.key || !matches!(point.key.feature, Feature::Terrain { .. });
-        let initial_overlap =
-            if stays { self.initial_overlap } else { (point.overlap - (self.overlap - self.initial_overlap)).max(0.0) };
-        Self { key: point.key, initial_overlap, ..self }
+        let stays = self.point.key == point.key || !matches!(point.key.feature, Feature::Terrain { .. });
+        let effective = self.point.overlap - self.initial_overlap;
+        let initial_overlap = if stays { self.initial_overlap } else { (point.overlap - effective).max(0.0) };
+        Self { initial_overlap, ..self }
     }
 
     /// Creates a contact that has just started.
@@ -120,16 +129,15 @@ impl Contact {
         let on_terrain = matches!(point.key.feature, Feature::Terrain { .. });
         let initial_overlap = if on_terrain && substep.dt > 0.0 { point.overlap } else { 0.0 };
         Self {
+            point: *point,
             initial_overlap,
-            key: point.key,
-            normal: point.normal,
             spring: DVec3::ZERO,
             rolling_spring: DVec3::ZERO,
-            overlap: point.overlap,
-            core: point.core,
             force: DVec3::ZERO,
+            rolling_torque: DVec3::ZERO,
             dashpot: 0.0,
             elastic: [0.0; 3],
+            unrecorded: 0.0,
         }
     }
 }

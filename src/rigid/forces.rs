@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::{Contact, ContactKey, ContactPoint, Feature, LONGEST_SUBSTEP, Substep};
 use super::kinematics::{ContactMotion, Motion};
-use super::law::ContactLaw;
+use super::law::{ContactLaw, Rolling};
 use super::motion::Load;
-use super::record::{ContactRecords, ForceStep, RecordedContact};
+use super::record::{ContactRecords, ForceStep, RunningRecord};
 use super::search::ground::places_between;
-use super::setup::{BodyKind, Ground, RigidSetup};
+use super::setup::{BodyKind, Ground, MaterialPair, RigidSetup};
 
 /// Energy balance of all bodies [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
 /// load_work is constant. Small errors come from the time stepping, and from the change of the tangential stiffness
@@ -78,8 +78,7 @@ pub struct EvaluationMemory {
     /// Contacts of the last evaluation, whether each of them continues, and their records.
     before: Vec<Contact>,
     used: Vec<bool>,
-    #[allow(clippy::vec_box, reason = "as in `ContactRecords::running`")]
-    old_records: Vec<Option<Box<RecordedContact>>>,
+    old_records: Vec<Option<RunningRecord>>,
 }
 
 impl Laws {
@@ -91,7 +90,12 @@ impl Laws {
         };
         let covers = setup.ground.as_ref().map(covers_of).unwrap_or_default();
         let least_radius = setup.kinds.iter().map(rounding).fold(f64::MAX, f64::min);
-        let kinds = setup.kinds.iter().map(|kind| LawsOfKind::new(kind, setup)).collect();
+        let beta = |pair: &MaterialPair| {
+            let [a, b] = pair.between.map(|index| &setup.materials[index]);
+            ContactLaw::damping_factor(setup.model, a, b, pair.resistance)
+        };
+        let betas: Vec<f64> = setup.pairs.iter().map(beta).collect();
+        let kinds = setup.kinds.iter().map(|kind| LawsOfKind::new(kind, setup, &betas)).collect();
         Self { kinds, covers, first_places: setup.first_places().collect(), least_radius }
     }
 
@@ -140,10 +144,20 @@ impl Laws {
                 continue;
             }
             let previous = find(before, used, contact_points, point, self.least_radius);
+            if let Some(index) = previous.filter(|_| motion.is_held(&point.key)) {
+                let contact = before[index].held(substep);
+                pair.add_force(contact.force, loads);
+                pair.add_torque(contact.rolling_torque, loads);
+                energy.elastic += contact.elastic.iter().sum::<f64>();
+                records.running.extend(old_records[index].take());
+                contacts.push(contact);
+                continue;
+            }
             let old = previous.map_or_else(|| Contact::started(point, substep), |i| before[i].continued_as(point));
             let mut record = previous
                 .and_then(|index| old_records[index].take())
                 .unwrap_or_else(|| records.begin(point, pair.start(self.law_of(&pair).mass())));
+            record.add_rest(&old, substep.start());
             let initial_overlap = old.initial_overlap.min(point.overlap);
             let deformed = DeformedContact {
                 law: self.law_of(&pair),
@@ -158,9 +172,11 @@ impl Laws {
             records.running.push(record);
             contacts.push(contact);
         }
-        for (old, record) in before.iter().zip(old_records).filter_map(|(old, record)| Some((old, record.take()?))) {
+        let ended = before.iter().zip(old_records).filter_map(|(old, record)| Some((old, record.take()?)));
+        for (old, mut record) in ended {
+            record.add_rest(old, substep.start());
             energy.friction += old.elastic[1] + old.elastic[2];
-            if let Feature::Terrain { .. } = old.key.feature {
+            if let Feature::Terrain { .. } = old.point.key.feature {
                 // A contact with a ridge can end before its overlap is zero. The stored energy counts as dissipated.
                 energy.damping += old.elastic[0];
             }
@@ -192,14 +208,16 @@ impl Laws {
 }
 
 impl LawsOfKind {
-    fn new(kind: &BodyKind, setup: &RigidSetup) -> Self {
+    /// Creates the laws of a kind; `betas` are the damping factors of the pairs of materials.
+    fn new(kind: &BodyKind, setup: &RigidSetup, betas: &[f64]) -> Self {
         let mass_of = |kind: &BodyKind| if kind.is_fixed { f64::INFINITY } else { kind.shape.mass };
         let (mass, radius) = (mass_of(kind), rounding(kind));
         let law = |other: usize, mass: f64, radius: f64| {
-            // `RigidSetup::check` has found the resistance of each pair of surfaces.
-            let resistance = setup.resistance(kind.material, other).unwrap_or(0.0.into());
+            // `RigidSetup::check` has found the pair of each two surfaces that can touch; the others have no friction.
+            let pair = setup.pair(kind.material, other);
+            let (resistance, beta) = pair.map_or((0.0.into(), 0.0), |k| (setup.pairs[k].resistance, betas[k]));
             let [a, b] = [kind.material, other].map(|index| &setup.materials[index]);
-            ContactLaw::new(setup.model, a, b, resistance, mass, radius)
+            ContactLaw::new(setup.model, a, b, resistance, beta, [mass, radius])
         };
         let with =
             |other: &BodyKind| law(other.material, effective(mass, mass_of(other)), effective(radius, rounding(other)));
@@ -251,40 +269,40 @@ impl DeformedContact<'_> {
             return old.idle(point, self.substep);
         }
         let moved = if self.is_new { DVec3::ZERO } else { pair.mean_t * self.substep.dt };
-        let kept = if law.keeps_spring() { rotate(old.spring, old.normal, point.normal) } else { DVec3::ZERO };
+        let kept = if law.keeps_spring() { rotate(old.spring, old.point.normal, point.normal) } else { DVec3::ZERO };
         let forces = law.forces(*overlap, pair.v_n, pair.v_t, kept + moved);
         let force = point.normal * forces.normal + forces.tangential;
         pair.add_force(force, loads);
-        let (rolling_spring, rolling_energy) = self.roll(forces.normal, energy, loads);
+        let (rolling, rolling_energy) = self.roll(forces.normal, energy);
+        pair.add_torque(rolling.torque, loads);
         let contact = Contact {
-            normal: point.normal,
-            overlap: point.overlap,
-            core: point.core,
+            point: *point,
             spring: forces.spring,
-            rolling_spring,
+            rolling_spring: rolling.spring,
+            initial_overlap: old.initial_overlap,
             force,
+            rolling_torque: rolling.torque,
             dashpot: forces.normal - law.elastic_force(*overlap),
             elastic: [law.normal_energy(*overlap), law.tangential_energy(*overlap, forces.spring), rolling_energy],
-            ..*old
+            unrecorded: 0.0,
         };
         self.update_energy_balance(&contact, forces.sliding, energy);
         contact
     }
 
-    /// Adds the torque of the rolling resistance to the loads; returns the rolling spring [rad] and its energy [J].
-    fn roll(&self, normal_force: f64, energy: &mut Energy, loads: &mut [Load]) -> (DVec3, f64) {
+    /// Returns the rolling resistance and its stored energy [J]; adds what it dissipates to the energy balance.
+    fn roll(&self, normal_force: f64, energy: &mut Energy) -> (Rolling, f64) {
         let Self { law, pair, old, overlap, substep, .. } = self;
         let [omega, mean_omega] = pair.rolling_velocities();
         let rolled = if self.is_new { DVec3::ZERO } else { mean_omega * substep.dt };
-        let spring = rotate(old.rolling_spring, old.normal, pair.point.normal) + rolled;
+        let spring = rotate(old.rolling_spring, old.point.normal, pair.point.normal) + rolled;
         let Some(rolling) = law.rolling_resistance(*overlap, normal_force, omega, spring) else {
-            return (old.rolling_spring, 0.0);
+            return (Rolling { torque: DVec3::ZERO, spring: old.rolling_spring, rolling: false }, 0.0);
         };
-        pair.add_torque(rolling.torque, loads);
         let stored = 0.5 * law.rolling_stiffness(*overlap) * rolling.spring.length_squared();
         let lost = -rolling.torque.dot(mean_omega) * substep.dt - (stored - old.elastic[2]);
         *(if rolling.rolling { &mut energy.friction } else { &mut energy.damping }) += lost;
-        (rolling.spring, stored)
+        (rolling, stored)
     }
 
     /// Adds the stored energy of the contact, and its dissipation by friction and dashpots, to the energy balance.
@@ -310,18 +328,19 @@ fn find(
     least_radius: f64,
 ) -> Option<usize> {
     let key = point.key;
-    let index = before.binary_search_by_key(&key, |c| c.key).ok().or_else(|| {
+    let index = before.binary_search_by_key(&key, |c| c.point.key).ok().or_else(|| {
         let touching = |k: &ContactKey| {
             contact_points.binary_search_by_key(k, |t| t.key).is_ok_and(|i| contact_points[i].overlap > 0.0)
         };
         let left = |(c, used): (&Contact, &bool)| {
-            let next = !*used && are_neighbours(c.key.feature, key.feature) && !touching(&c.key);
+            let next = !*used && are_neighbours(c.point.key.feature, key.feature) && !touching(&c.point.key);
             // Neighbouring ground elements have no gap between them, so the foot point `core` moves only a short way.
-            next.then(|| c.core.distance(point.core)).filter(|path| *path < least_radius)
+            next.then(|| c.point.core.distance(point.core)).filter(|path| *path < least_radius)
         };
         // The contacts are sorted by body and part.
-        let first = before.partition_point(|c| (c.key.body, c.key.part) < (key.body, key.part));
-        let last = before.partition_point(|c| (c.key.body, c.key.part) <= (key.body, key.part));
+        let part = |c: &Contact| (c.point.key.body, c.point.key.part);
+        let first = before.partition_point(|c| part(c) < (key.body, key.part));
+        let last = before.partition_point(|c| part(c) <= (key.body, key.part));
         let paths = (first..last).filter_map(|index| Some((index, left((&before[index], &used[index]))?)));
         paths.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     })?;

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::contact::{ContactPoint, Feature, Substep};
+use super::contact::{ContactKey, ContactPoint, Feature, Substep};
 use super::motion::{BodyState, Load};
 use super::record::ContactStart;
 
@@ -42,8 +42,21 @@ pub struct Motion<'a> {
     pub now: Velocities<'a>,
     /// Mean velocities over the substep, for the elongation of the springs and the work of the forces.
     pub mean: Velocities<'a>,
+    /// Bodies that hold their place over the substep.
+    pub is_still: &'a [bool],
     /// The substep.
     pub substep: Substep,
+}
+
+impl Motion<'_> {
+    /// Returns true if neither the body nor its partner moves, so that their contact stays as it is.
+    pub fn is_held(&self, key: &ContactKey) -> bool {
+        let is_partner_still = || match key.feature {
+            Feature::Unit { body, .. } => self.is_still[body as usize],
+            Feature::Ground { .. } | Feature::Terrain { .. } | Feature::Wall { .. } => true,
+        };
+        self.is_still[key.body as usize] && is_partner_still()
+    }
 }
 
 /// A contact point with the velocity of the first body relative to the second body, the ground or a wall.

@@ -8,6 +8,7 @@
 //! | `setup` | input: shape and positions of the bodies, ground, walls, materials |
 //! | `world` | time stepping by substeps; the entry point of this module |
 //! | `motion` | rotation of a free rigid body |
+//! | `rest` | bodies at rest |
 //! | `search` | contact points of all bodies |
 //! | `contact` | data of a contact: identity, contact point, history |
 //! | `law` | contact laws |
@@ -25,6 +26,7 @@ mod kinematics;
 mod law;
 mod motion;
 mod record;
+mod rest;
 mod search;
 mod setup;
 mod snapshot;
@@ -34,7 +36,7 @@ pub use contact::Feature;
 pub use error::RigidError;
 pub use forces::Energy;
 pub use law::{ContactModel, Material, Resistance, effective_young_modulus, impact_overlap};
-pub use motion::{BodyState, Load};
+pub use motion::{BodyState, Load, REST_BOUND};
 pub use record::{ContactEvent, ForceHistory, ForceSample, RecordedContact};
 pub use setup::{Body, BodyKind, BodyShape, Cover, Ground, MaterialPair, RigidSetup, Sides, TriangleSurface};
 pub use snapshot::RigidSnapshot;

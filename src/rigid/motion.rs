@@ -12,6 +12,10 @@ use glam::{DMat3, DQuat, DVec3};
 use super::setup::{BodyKind, BodyShape};
 pub use crate::mechanics::{BodyState, Load};
 
+/// Largest acceleration of a body at rest, divided by gravity [-]: its forces balance up to this share of its weight.
+/// The same holds for the acceleration of its surface by rotation.
+pub const REST_BOUND: f64 = 1e-4;
+
 /// Mass and inertia tensor of the bodies of one kind.
 #[derive(Debug, Clone, Copy)]
 pub struct Inertia {

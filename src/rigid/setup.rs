@@ -166,10 +166,9 @@ impl RigidSetup {
         })
     }
 
-    /// Returns friction and rolling resistance between surfaces of two materials, if given.
-    pub fn resistance(&self, a: usize, b: usize) -> Option<Resistance> {
-        let is_given = |pair: &&MaterialPair| pair.between == [a, b] || pair.between == [b, a];
-        self.pairs.iter().find(is_given).map(|pair| pair.resistance)
+    /// Returns the index in `pairs` of two materials, if they are given.
+    pub fn pair(&self, a: usize, b: usize) -> Option<usize> {
+        self.pairs.iter().position(|pair| pair.between == [a, b] || pair.between == [b, a])
     }
 
     /// Returns an error if a value is out of range.
@@ -199,7 +198,7 @@ impl RigidSetup {
                 if let Some(unknown) = [a, b].into_iter().find(|index| *index >= self.materials.len()) {
                     return reject("the number of a material", unknown as f64, "less than the number of materials");
                 }
-                if self.resistance(a, b).is_none() {
+                if self.pair(a, b).is_none() {
                     let what = format!("the friction between the materials {a} and {b}");
                     return reject(&what, f64::NAN, "given in `pairs`");
                 }

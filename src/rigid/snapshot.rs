@@ -3,11 +3,11 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::contact::{Contact, ContactKey};
+use super::contact::Contact;
 use super::error::RigidError;
 use super::forces::Energy;
 use super::motion::Load;
-use super::record::{ContactRecords, EventLog, ImpactLog, RecordedContact};
+use super::record::{ContactRecords, EventLog, ImpactLog, RecordedContact, RunningRecord};
 use super::world::RigidWorld;
 
 /// State of all bodies and contacts. It includes angular momentum and current contact forces, because recomputed values
@@ -18,7 +18,8 @@ pub struct RigidSnapshot {
     substeps: u64,
     frequency_squared: f64,
     bodies: Vec<BodySnapshot>,
-    contacts: Vec<ContactSnapshot>,
+    /// Active contacts with their records.
+    contacts: Vec<(Contact, RecordedContact)>,
     energy: Energy,
     ended: EventLog,
     impacts: ImpactLog,
@@ -32,27 +33,11 @@ struct BodySnapshot {
     rotation: [f64; 4],
     velocity: [f64; 3],
     angular_momentum: [f64; 3],
+    is_still: bool,
     /// Current contact force and torque.
     contact_now: Load,
     /// Mean contact force and torque over the last call of `advance`.
     contact_mean: Load,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct ContactSnapshot {
-    key: ContactKey,
-    normal: [f64; 3],
-    spring: [f64; 3],
-    #[serde(rename = "roll")]
-    rolling_spring: [f64; 3],
-    overlap: f64,
-    #[serde(rename = "sunk")]
-    initial_overlap: f64,
-    core: [f64; 3],
-    force: [f64; 3],
-    dashpot: f64,
-    elastic: [f64; 3],
-    record: RecordedContact,
 }
 
 impl RigidWorld {
@@ -63,28 +48,16 @@ impl RigidWorld {
             rotation: self.rotation[b].to_array(),
             velocity: self.velocity[b].to_array(),
             angular_momentum: self.angular_momentum[b].to_array(),
+            is_still: self.is_still[b],
             contact_now: self.contact_now[b],
             contact_mean: self.contact_mean[b],
-        };
-        let contact = |(c, record): (&Contact, &RecordedContact)| ContactSnapshot {
-            key: c.key,
-            normal: c.normal.to_array(),
-            spring: c.spring.to_array(),
-            rolling_spring: c.rolling_spring.to_array(),
-            core: c.core.to_array(),
-            force: c.force.to_array(),
-            dashpot: c.dashpot,
-            overlap: c.overlap,
-            initial_overlap: c.initial_overlap,
-            elastic: c.elastic,
-            record: record.clone(),
         };
         RigidSnapshot {
             time_s: self.time,
             substeps: self.substeps,
             frequency_squared: self.frequency_squared,
             bodies: (0..self.position.len()).map(body).collect(),
-            contacts: self.contacts.iter().zip(self.records.running.iter().map(Box::as_ref)).map(contact).collect(),
+            contacts: self.contacts.iter().zip(&self.records.running).map(|(c, r)| (*c, r.record().clone())).collect(),
             energy: self.energy,
             ended: self.records.ended.clone(),
             impacts: self.records.impacts.clone(),
@@ -96,7 +69,7 @@ impl RigidWorld {
     /// are fixed in the other world keep their forces.
     pub fn adopt_contacts(&mut self, other: &Self) {
         for contact in &mut self.contacts {
-            if let Some(same) = other.contacts.iter().find(|same| same.key == contact.key) {
+            if let Some(same) = other.contacts.iter().find(|same| same.point.key == contact.point.key) {
                 *contact = *same;
             }
         }
@@ -118,28 +91,17 @@ impl RigidWorld {
             self.rotation[b] = DQuat::from_array(body.rotation);
             self.velocity[b] = DVec3::from_array(body.velocity);
             self.angular_momentum[b] = DVec3::from_array(body.angular_momentum);
+            self.is_still[b] = body.is_still;
             self.contact_now[b] = body.contact_now;
             self.contact_mean[b] = body.contact_mean;
         }
-        let contact = |c: &ContactSnapshot| Contact {
-            key: c.key,
-            normal: DVec3::from_array(c.normal),
-            spring: DVec3::from_array(c.spring),
-            rolling_spring: DVec3::from_array(c.rolling_spring),
-            core: DVec3::from_array(c.core),
-            force: DVec3::from_array(c.force),
-            dashpot: c.dashpot,
-            overlap: c.overlap,
-            initial_overlap: c.initial_overlap,
-            elastic: c.elastic,
-        };
-        self.contacts = snapshot.contacts.iter().map(contact).collect();
+        self.contacts = snapshot.contacts.iter().map(|(contact, _)| *contact).collect();
         self.time = snapshot.time_s;
         self.substeps = snapshot.substeps;
         self.frequency_squared = snapshot.frequency_squared;
         self.energy = snapshot.energy;
         self.records = ContactRecords {
-            running: snapshot.contacts.iter().map(|contact| Box::new(contact.record.clone())).collect(),
+            running: snapshot.contacts.iter().map(|(_, record)| RunningRecord::new(record.clone())).collect(),
             ended: snapshot.ended.clone(),
             impacts: snapshot.impacts.clone(),
             begun: snapshot.begun,

@@ -47,6 +47,7 @@ pub struct RigidWorld {
     /// Two-dimensional motion: bodies translate along x and z and rotate about y only.
     two_dimensional: bool,
     steps_per_period: f64,
+    pub(super) rest_bound: f64,
     // State.
     pub(super) time: f64,
     /// Kind of each body.
@@ -55,6 +56,8 @@ pub struct RigidWorld {
     pub(super) position: Vec<DVec3>,
     pub(super) velocity: Vec<DVec3>,
     pub(super) angular_momentum: Vec<DVec3>,
+    /// Bodies at rest, and fixed bodies without velocity.
+    pub(super) is_still: Vec<bool>,
     pub(super) contact_now: Vec<Load>,
     pub(super) contacts: Vec<Contact>,
     pub(super) frequency_squared: f64,
@@ -80,6 +83,7 @@ impl RigidWorld {
         let rotation: Vec<DQuat> = setup.bodies.iter().map(|b| b.state.rotation.normalize()).collect();
         let momentum =
             |(b, q): (&Body, &DQuat)| motion::angular_momentum(*q, &inertias[b.kind].tensor, b.state.angular_velocity);
+        let is_still = |b: &Body| setup.kinds[b.kind].is_fixed && b.state.velocity == DVec3::ZERO;
         let rounding_of = |kind: &BodyKind| kind.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min);
         let mut world = Self {
             surfaces: Surfaces::new(&setup),
@@ -87,9 +91,11 @@ impl RigidWorld {
             gravity: setup.gravity,
             two_dimensional: setup.sides == Sides::TwoDimensional,
             steps_per_period: STEPS_PER_PERIOD,
+            rest_bound: motion::REST_BOUND,
             time: 0.0,
             kind: setup.bodies.iter().map(|b| b.kind).collect(),
             angular_momentum: setup.bodies.iter().zip(&rotation).map(momentum).collect(),
+            is_still: setup.bodies.iter().map(is_still).collect(),
             inertias,
             rotation,
             position: setup.bodies.iter().map(|b| b.state.position).collect(),
@@ -145,7 +151,7 @@ impl RigidWorld {
 
     /// Largest overlap of the active contacts [m]; 0 without contacts.
     pub fn deepest_overlap(&self) -> f64 {
-        self.contacts.iter().map(|contact| contact.overlap).fold(0.0, f64::max)
+        self.contacts.iter().map(|contact| contact.point.overlap).fold(0.0, f64::max)
     }
 
     /// Size of the last contact search: number of part pairs in its list, and number of contact points found.
@@ -165,7 +171,7 @@ impl RigidWorld {
 
     /// Records of the active contacts up to now.
     pub fn running_events(&self) -> impl Iterator<Item = &ContactEvent> {
-        self.records.running.iter().map(|contact| &contact.event)
+        self.records.running.iter().map(|contact| &contact.record().event)
     }
 
     /// The hardest impacts of each unit since the start, including active contacts, in descending order of peak force.
@@ -206,6 +212,7 @@ impl RigidWorld {
             return Err(RigidError::Setup { what, value: mass, allowed: "infinite" });
         }
         self.velocity[body] = velocity;
+        self.is_still[body] = velocity == DVec3::ZERO;
         Ok(())
     }
 
@@ -229,6 +236,8 @@ impl RigidWorld {
         let start = self.time;
         let mut left = dt;
         while left > 0.0 {
+            self.accelerations(loads, &mut workspace.old);
+            self.hold_or_wake(&mut workspace.old);
             let h = self.substep_length(left);
             self.substep(h, loads, &mut workspace)?;
             for (sum, now) in workspace.impulse.iter_mut().zip(&self.contact_now) {
@@ -238,6 +247,7 @@ impl RigidWorld {
             left = if h < left { left - h } else { 0.0 };
         }
         self.time = start + dt;
+        self.records.complete(&mut self.contacts, self.time);
         if dt > 0.0 {
             for (mean, sum) in self.contact_mean.iter_mut().zip(&workspace.impulse) {
                 *mean = Load { force: sum.force / dt, torque: sum.torque / dt };
@@ -249,13 +259,17 @@ impl RigidWorld {
     }
 
     /// Returns a substep length [s] that divides the remaining time `left` [s] evenly and suits the stiffest contact.
+    /// While no body moves, nothing changes: one substep is enough.
     fn substep_length(&self, left: f64) -> f64 {
+        if self.is_still.iter().all(|still| *still) {
+            return left;
+        }
         let longest = (TAU / self.frequency_squared.sqrt() / self.steps_per_period).min(LONGEST_SUBSTEP);
         left / (left / longest).ceil().max(1.0)
     }
 
+    /// Advances all bodies by a substep `h` [s]; `workspace` holds the accelerations at its start.
     fn substep(&mut self, h: f64, loads: &[Load], workspace: &mut Workspace) -> Result<(), RigidError> {
-        self.accelerations(loads, &mut workspace.old);
         self.kick(&workspace.old, 0.5 * h);
         self.drift(h);
         workspace.linear_mid.clone_from(&self.velocity);
@@ -268,10 +282,12 @@ impl RigidWorld {
         // Replace the extrapolated velocity: the second half of the update uses the new acceleration.
         self.velocity.copy_from_slice(&workspace.linear_mid);
         self.accelerations(loads, &mut workspace.new);
+        self.hold_or_wake(&mut workspace.new);
         for (body, (new, old)) in workspace.new.iter().zip(&workspace.old).enumerate() {
             self.angular_momentum[body] += (new.1 - old.1) * (0.5 * h);
             self.velocity[body] += new.0 * (0.5 * h);
         }
+        self.come_to_rest(&workspace.new);
         self.substeps += 1;
         Ok(())
     }
@@ -308,14 +324,14 @@ impl RigidWorld {
     }
 
     fn drift(&mut self, h: f64) {
-        for body in 0..self.position.len() {
+        for body in (0..self.position.len()).filter(|body| !self.is_still[*body]) {
             self.position[body] += self.velocity[body] * h;
             let (q, l) = (self.rotation[body], self.angular_momentum[body]);
             self.rotation[body] = motion::rotated(q, &self.inertias[self.kind[body]].inverse, l, h);
         }
     }
 
-    fn angular_velocity_of(&self, body: usize) -> DVec3 {
+    pub(super) fn angular_velocity_of(&self, body: usize) -> DVec3 {
         let inverse = &self.inertias[self.kind[body]].inverse;
         motion::angular_velocity(self.rotation[body], inverse, self.angular_momentum[body])
     }
@@ -345,6 +361,7 @@ impl RigidWorld {
             placements: Placements { kind: &self.kind, rotation: &self.rotation, position: &self.position },
             now: Velocities { linear: &self.velocity, angular: angular_velocity },
             mean: Velocities { linear: linear_mid, angular: angular_mid },
+            is_still: &self.is_still,
             substep: Substep { dt: h, time: self.time },
         };
         let contact_points = self.search.find(&self.surfaces, &motion, &self.contacts)?;

@@ -76,32 +76,42 @@ pub struct Rolling {
 }
 
 impl ContactLaw {
-    /// Creates the contact law of two materials; `mass` [kg] and `radius` [m] are the effective values of the pair. If
-    /// `resistance` has no restitution, the smaller restitution of the two materials applies.
+    /// Creates the contact law of two materials with their [damping factor](Self::damping_factor) `beta` [-]; `mass` [kg]
+    /// and `radius` [m] are the effective values of the pair.
     pub fn new(
         model: ContactModel,
         a: &Material,
         b: &Material,
         resistance: Resistance,
-        mass: f64,
-        radius: f64,
+        beta: f64,
+        [mass, radius]: [f64; 2],
     ) -> Self {
-        let restitution = resistance.restitution.unwrap_or(a.restitution.min(b.restitution));
         let hertz = |radius: f64| Stiffness::Hertz {
             e_star: hertz_mindlin::effective_young_modulus(a, b),
             g_star: hertz_mindlin::effective_shear_modulus(a, b),
             radius,
         };
-        let (stiffness, beta) = match model {
-            ContactModel::HertzMindlin => (hertz(radius), hertz_mindlin::damping_factor(restitution)),
-            ContactModel::Chrono4 => (hertz(CHRONO_RADIUS), hertz_mindlin::damping_factor_with_tension(restitution)),
+        let stiffness = match model {
+            ContactModel::HertzMindlin => hertz(radius),
+            ContactModel::Chrono4 => hertz(CHRONO_RADIUS),
             ContactModel::Linear => {
                 let normal = resistance.stiffness.unwrap_or_default();
                 let ratio = linear::stiffness_ratio(0.5 * (a.poisson_ratio + b.poisson_ratio));
-                (Stiffness::Linear { normal, tangential: ratio * normal }, linear::damping_factor(restitution))
+                Stiffness::Linear { normal, tangential: ratio * normal }
             }
         };
         Self { stiffness, beta, resistance, mass, radius, keeps_spring: model != ContactModel::Chrono4 }
+    }
+
+    /// Damping factor |beta| [-] of two materials; it takes milliseconds to compute. If `resistance` has no restitution,
+    /// the smaller restitution of the two materials applies.
+    pub fn damping_factor(model: ContactModel, a: &Material, b: &Material, resistance: Resistance) -> f64 {
+        let restitution = resistance.restitution.unwrap_or(a.restitution.min(b.restitution));
+        match model {
+            ContactModel::HertzMindlin => hertz_mindlin::damping_factor(restitution),
+            ContactModel::Chrono4 => hertz_mindlin::damping_factor_with_tension(restitution),
+            ContactModel::Linear => linear::damping_factor(restitution),
+        }
     }
 
     /// Returns true if the tangential spring is kept from substep to substep.
@@ -232,7 +242,9 @@ mod tests {
     fn law(model: ContactModel, e: f64) -> ContactLaw {
         let material = Material { young_modulus: 1e9, poisson_ratio: 0.25, restitution: e };
         let resistance = Resistance { rolling: 0.1, stiffness: Some(1e6), ..0.5.into() };
-        ContactLaw::new(model, &material, &material, resistance, 2650.0 * 4.0 / 3.0 * PI * 0.02f64.powi(3), 0.02)
+        let beta = ContactLaw::damping_factor(model, &material, &material, resistance);
+        let mass = 2650.0 * 4.0 / 3.0 * PI * 0.02f64.powi(3);
+        ContactLaw::new(model, &material, &material, resistance, beta, [mass, 0.02])
     }
 
     #[test]

@@ -11,6 +11,6 @@ mod hertz_mindlin;
 mod linear;
 mod parameters;
 
-pub use contact_law::ContactLaw;
+pub use contact_law::{ContactLaw, Rolling};
 pub use hertz_mindlin::{effective_young_modulus, impact_overlap};
 pub use parameters::{ContactModel, Material, Resistance};

@@ -1,19 +1,19 @@
-//! Records of active contacts. When a contact ends, its event is kept, and for a hard impact also the force history.
+//! Records of all contacts. When a contact ends, its event is kept, and for a hard impact also the force history.
 
 use glam::DVec3;
 
 use super::event::{ContactEvent, EventLog};
 use super::force_history::ForceHistory;
 use super::impact_log::{ImpactLog, RecordedContact};
-use crate::rigid::contact::{ContactPoint, Substep};
+use super::running_record::RunningRecord;
+use crate::rigid::contact::{Contact, ContactPoint, Substep};
 use crate::rigid::motion::BodyState;
 
 /// Records of all contacts of a world.
 #[derive(Debug, Clone, Default)]
 pub struct ContactRecords {
     /// Records of the active contacts, in the order of `RigidWorld::contacts`.
-    #[allow(clippy::vec_box, reason = "records move between lists in every substep; with a box, only a pointer moves")]
-    pub running: Vec<Box<RecordedContact>>,
+    pub running: Vec<RunningRecord>,
     /// Ended contacts that the caller has not taken yet.
     pub ended: EventLog,
     /// The hardest ended contacts.
@@ -39,22 +39,9 @@ pub struct ContactStart {
     pub mass: f64,
 }
 
-/// Contact force over a substep.
-#[derive(Debug, Clone, Copy)]
-pub struct ForceStep {
-    /// The substep.
-    pub substep: Substep,
-    /// Force at the start of the substep [N].
-    pub before: DVec3,
-    /// Force at the end of the substep [N].
-    pub now: DVec3,
-    /// Normal velocity at the end of the substep [m/s].
-    pub v_n: f64,
-}
-
 impl ContactRecords {
     /// Creates the record of a contact that starts.
-    pub fn begin(&mut self, point: &ContactPoint, at: ContactStart) -> Box<RecordedContact> {
+    pub fn begin(&mut self, point: &ContactPoint, at: ContactStart) -> RunningRecord {
         let number = self.begun;
         self.begun += 1;
         let arm = point.position - at.body.position;
@@ -78,44 +65,30 @@ impl ContactRecords {
             peak_time: at.time,
             impulse: [0.0; 3],
         };
-        Box::new(RecordedContact { event, history: ForceHistory::default() })
+        RunningRecord::new(RecordedContact { event, history: ForceHistory::default() })
     }
 
     /// Stores a contact that has ended in a substep; `before` is its force [N] at the start of the substep.
-    pub fn end(&mut self, mut contact: Box<RecordedContact>, before: DVec3, substep: Substep) {
+    pub fn end(&mut self, mut contact: RunningRecord, before: DVec3, substep: Substep) {
         contact.add_force(before, DVec3::ZERO, substep);
+        let contact = contact.finish();
         self.ended.push(contact.event);
-        self.impacts.add(*contact);
+        self.impacts.add(contact);
+    }
+
+    /// Adds the time at rest that the records do not contain yet, up to `time` [s], and completes the records.
+    pub fn complete(&mut self, contacts: &mut [Contact], time: f64) {
+        for (contact, running) in contacts.iter_mut().zip(&mut self.running) {
+            running.add_rest(contact, time);
+            contact.unrecorded = 0.0;
+            running.store();
+        }
     }
 
     /// Returns the impact log including the active contacts.
     pub fn impacts_so_far(&self) -> ImpactLog {
         let mut log = self.impacts.clone();
-        self.running.iter().for_each(|contact| log.add((**contact).clone()));
+        self.running.iter().for_each(|contact| log.add(contact.record().clone()));
         log
-    }
-}
-
-impl RecordedContact {
-    /// Adds a substep to the record of a contact that is still active.
-    pub fn add(&mut self, force_step: ForceStep) {
-        let ForceStep { substep, before, now, v_n } = force_step;
-        self.add_force(before, now, substep);
-        let event = &mut self.event;
-        if now.length_squared() > event.peak_force * event.peak_force {
-            event.peak_force = now.length();
-            event.peak = now.to_array();
-            event.peak_time = substep.time;
-        }
-        event.end = substep.time;
-        event.rebound = v_n;
-    }
-
-    /// Adds the mean of the forces at the start and the end of a substep to the impulse and the force history.
-    fn add_force(&mut self, before: DVec3, now: DVec3, substep: Substep) {
-        let Substep { dt, time } = substep;
-        let force = 0.5 * (before + now);
-        self.event.impulse = (DVec3::from_array(self.event.impulse) + force * dt).to_array();
-        self.history.add(time - dt, dt, force);
     }
 }

@@ -70,6 +70,29 @@ impl From<ForceSample> for [f64; 5] {
     }
 }
 
+/// The last bin of a force history while it grows: all that most substeps need of the history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GrowingBin {
+    bin: ForceSample,
+    /// Largest mean force of a substep in the history [N].
+    peak: f64,
+}
+
+impl GrowingBin {
+    /// Adds a substep that lasts `duration` [s], with its mean force [N], if the force is about that of the bin. Returns
+    /// false if it is not; [`ForceHistory::add`] then adds the substep.
+    pub fn add(&mut self, start: f64, duration: f64, force: DVec3) -> bool {
+        let fits = self.bin.duration > 0.0
+            && duration > 0.0
+            && force.length_squared() <= self.peak * self.peak
+            && self.bin.is_about(force, SAME * self.peak);
+        if fits {
+            self.bin = self.bin.with(&ForceSample { start, duration, impulse: force * duration });
+        }
+        fits
+    }
+}
+
 /// Force on a body against time.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ForceHistory {
@@ -85,6 +108,19 @@ impl ForceHistory {
     /// Bins up to now, in time order and without gaps: fewer than 128 bins, at most 64 after [`Self::shorten`].
     pub fn samples(&self) -> &[ForceSample] {
         &self.samples
+    }
+
+    /// Returns a copy of the last bin, for [`Self::store`].
+    pub fn growing(&self) -> GrowingBin {
+        let none = ForceSample { start: 0.0, duration: 0.0, impulse: DVec3::ZERO };
+        GrowingBin { bin: self.samples.last().copied().unwrap_or(none), peak: self.peak }
+    }
+
+    /// Replaces the last bin by what has become of it.
+    pub fn store(&mut self, growing: &GrowingBin) {
+        if let Some(last) = self.samples.last_mut() {
+            *last = growing.bin;
+        }
     }
 
     /// Adds a substep that begins at `start` [s] and lasts `duration` [s], with its mean force [N].

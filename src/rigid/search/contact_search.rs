@@ -80,7 +80,8 @@ impl ContactSearch {
         [self.pairs.len(), self.points.len()]
     }
 
-    /// Finds all contact points, sorted by key. They include gaps that can close within the longest substep.
+    /// Finds all contact points, sorted by key. They include gaps that can close within the longest substep. Contacts
+    /// between bodies that hold their place keep their points.
     /// `before` lists the active contacts of the last search, sorted by key.
     pub fn find(
         &mut self,
@@ -94,9 +95,11 @@ impl ContactSearch {
         let measured = MEASURED_GAP * *rounding;
         let (placements, time) = (motion.placements, motion.substep.time);
         points.clear();
+        points.extend(before.iter().map(|contact| contact.point).filter(|point| motion.is_held(&point.key)));
+        let is_still = motion.is_still;
         in_tasks(clearance, BODIES_PER_TASK, tasks, points, |body, clearance, out| {
             let margin = travel.margin(body);
-            if *clearance > travel.path[body] + margin || surfaces.is_fixed(body, placements) {
+            if is_still[body] || *clearance > travel.path[body] + margin || surfaces.is_fixed(body, placements) {
                 return Ok(());
             }
             let from = out.len();
@@ -109,6 +112,9 @@ impl ContactSearch {
             Ok(())
         })?;
         in_tasks(pairs, PAIRS_PER_TASK, tasks, points, |_, pair, out| {
+            if is_still[pair.bodies.first] && is_still[pair.bodies.second] {
+                return Ok(());
+            }
             let (path, margin) = (travel.pair_path(&pair.bodies), travel.pair_margin(&pair.bodies));
             if pair.clearance <= path + margin {
                 let gap = surfaces.part_contact_points(pair, placements, before, [margin, measured], time, out)?;
@@ -122,7 +128,7 @@ impl ContactSearch {
 
     /// Adds the last substep to the paths, and builds the list of pairs if a pair beyond it can be near.
     fn update_list(&mut self, surfaces: &Surfaces, motion: &Motion) {
-        let Motion { placements, now, mean, substep } = *motion;
+        let Motion { placements, now, mean, substep, .. } = *motion;
         for (body, path) in self.path.iter_mut().enumerate() {
             let reach = surfaces.reach(placements.kind[body]);
             Travel::add_to_path(path, substep.dt, mean.linear[body], mean.angular[body], reach);

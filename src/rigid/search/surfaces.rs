@@ -211,7 +211,8 @@ impl Surfaces {
             return Ok(f64::NEG_INFINITY);
         }
         let key = pair.key([WHOLE_PART; 2]);
-        let last_core = before.binary_search_by_key(&key, |contact| contact.key).ok().map(|index| before[index].core);
+        let last_core =
+            before.binary_search_by_key(&key, |contact| contact.point.key).ok().map(|index| before[index].point.core);
         let near_last =
             last_core.and_then(|core| nearest_points::nearest_from(part_a, pose_a, part_b, pose_b, core, reach));
         let nearest = near_last.unwrap_or_else(|| nearest_points::nearest(part_a, pose_a, part_b, pose_b, reach));

@@ -9,6 +9,7 @@ mod kinds;
 mod linear;
 mod pile;
 mod records;
+mod rest;
 mod rolling;
 mod rows;
 mod sliding;
