@@ -63,7 +63,7 @@ fn check(duration: f64) {
 }
 
 #[test]
-#[ignore = "10 minutes on 2 cores: cargo test --release --test verification -- --ignored --nocapture section::"]
+#[ignore = "16 minutes on 2 cores: cargo test --release --test verification -- --ignored --nocapture section::"]
 fn no_unit_of_the_section_moves_in_still_water() {
     check(FULL);
 }

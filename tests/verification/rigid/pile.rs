@@ -102,7 +102,7 @@ fn forty_tetrapods_come_to_rest_in_a_pile() {
 }
 
 #[test]
-#[ignore = "15 minutes on 2 cores: cargo test --release --test verification -- --ignored --nocapture rigid::pile"]
+#[ignore = "15 minutes on 2 cores: cargo test --release --test verification -- --ignored --nocapture rigid::pile::five"]
 fn five_hundred_tetrapods_cost_as_much_per_contact_as_fifteen() {
     let piles = [(15, 3, 2), (100, 6, 4), (500, 10, 8)]
         .map(|(count, along, across)| run_to_rest(count, [along, across], 20.0, 0.0));
@@ -114,7 +114,7 @@ fn five_hundred_tetrapods_cost_as_much_per_contact_as_fifteen() {
 }
 
 #[test]
-#[ignore = "16 minutes on one core: cargo test --release --test verification -- --ignored --nocapture rigid::pile::a_thousand"]
+#[ignore = "7 minutes on 2 cores: cargo test --release --test verification -- --ignored --nocapture rigid::pile::a_thousand"]
 fn a_thousand_tetrapods_come_to_rest() {
     // The pile is five layers deep instead of three, and its deepest contact, between two edges, has an overlap of 1.3
     // %.
