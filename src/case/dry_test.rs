@@ -232,7 +232,7 @@ fn validate_site(file: &DryFile, name: &str, materials: GroundMaterials, check: 
     }
     let (x, width, sides, top_z) = (file.domain.x_m, file.domain.width_m, file.domain.sides, file.domain.top_z_m);
     let parts = structure::validate(parts, &file.structure, &[], &flume, width, &around, check)?;
-    let (profile, covers) = (flume.profile, flume.covers);
+    let (profile, covers) = (flume.rest.unwrap_or(flume.profile), flume.covers);
     (check.count() == before).then_some(Site { profile, covers, terrain, parts, x, width, sides, top_z })
 }
 

@@ -170,6 +170,7 @@ fn print(case: &Case) {
         let words = |part: &Part| {
             let place = match part.shape {
                 PartShape::Bed(_) => " (part of the bed)",
+                PartShape::Porous(..) => " (porous)",
                 PartShape::Body(_) => " (body)",
                 PartShape::Section(_) | PartShape::Box(_) => "",
             };

@@ -66,8 +66,9 @@ pub const DRY_ENERGY: [&str; 7] =
 
 /// `energy.csv` of a flume run: energy of the water and of the units. `from_*` is the energy that the water received
 /// since the start: from bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion and
-/// particle shifting, and from damping and relaxation zones. Negative values are energy that the water lost.
-pub const ENERGY: [&str; 10] = [
+/// particle shifting, from damping and relaxation zones, and from the drag of porous parts. Negative values are energy
+/// that the water lost.
+pub const ENERGY: [&str; 11] = [
     "time_s",
     "kinetic_j",
     "potential_j",
@@ -78,6 +79,7 @@ pub const ENERGY: [&str; 10] = [
     "from_viscosity_j",
     "from_diffusion_j",
     "from_zones_j",
+    "from_pores_j",
 ];
 
 /// `energy.csv` of a fracture run: stored energies; energies dissipated and supplied since the start; residual of the

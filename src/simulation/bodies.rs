@@ -64,8 +64,8 @@ pub fn rigid_setup(
 /// Returns the surfaces of a part as units meet them; the ground has the parts of the bed. In a periodic flume, a part
 /// across the whole width continues beyond both sides, and other parts have an image on each side.
 fn surfaces_of(part: &Part, site: &Site) -> Vec<Arc<Terrain>> {
-    match &part.shape {
-        PartShape::Bed(_) => Vec::new(),
+    match part.surface() {
+        PartShape::Bed(_) | PartShape::Porous(..) => Vec::new(),
         PartShape::Section(polygon) => {
             let [low, high] = polygon.bounds();
             let beyond = beyond(site, (high - low).max_element());

@@ -12,6 +12,7 @@ mod data;
 mod floating_box;
 mod flume_bar;
 mod flume_run_up;
+mod porous_dam;
 mod sliding_row;
 mod three_cubes;
 mod towed_bodies;

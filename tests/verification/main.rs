@@ -22,6 +22,7 @@ mod incoming_waves;
 mod lattice;
 mod open_ends;
 mod operators;
+mod porous;
 mod regions;
 mod regular_waves;
 mod reproducibility;

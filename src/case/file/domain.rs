@@ -135,4 +135,7 @@ pub struct BlockFile {
     pub x_m: [f64; 2],
     /// Level z of the top of the block [m].
     pub top_z_m: f64,
+    /// Level z of the shallower water in the rest of the domain [m]. By default, the rest is dry.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub around_z_m: Option<f64>,
 }

@@ -42,7 +42,7 @@ pub use reference::{ReferenceFile, ReferenceWaveFile, ReferenceWaveKind, SeriesF
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 pub use shape::{RockFile, Shape, StlFile};
-pub use structure::{PartFile, PartStlFile};
+pub use structure::{DragSource, PartFile, PartStlFile, PorousFile};
 pub use sweep::{Combine, NormalFile, RandomFile, SweepFile, VaryFile};
 pub use wave_source::{ExternalWaveFile, OpenfoamFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile};
 pub use waves::{

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::BoxFile;
 
-/// A solid part of a structure, for example a mound, a toe berm, a crown wall or a caisson. Give exactly one of
+/// A part of a structure, for example a mound, a toe berm, a crown wall or a caisson. Give exactly one of
 /// `polygon_m`, `box` and `stl`. Units can rest on it, and water flows around it.
 ///
 /// A part that is the same across the flume, and that lies on the bed without vertical or overhanging faces, becomes
@@ -27,6 +27,57 @@ pub struct PartFile {
     /// Material of the surface: a name in `materials`. By default, the material of the bed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+    /// Makes the part permeable. By default, no water flows through it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub porous: Option<PorousFile>,
+}
+
+/// Rubble, gravel or sand that does not move, and through which water flows. Give exactly one of `d50_m` and `d_n50_m`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PorousFile {
+    /// Porosity: the share of the pores in the volume [-].
+    pub porosity: f64,
+    /// Median diameter D50 of the stones [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub d50_m: Option<f64>,
+    /// Nominal diameter D_n50 of the stones [m]; D50 = D_n50 / 0.84.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub d_n50_m: Option<f64>,
+    /// Source of the drag coefficients alpha and beta.
+    #[serde(default)]
+    pub coefficients: DragSource,
+    /// Coefficient alpha of the linear drag [-]. By default, that of the source.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub alpha: Option<f64>,
+    /// Coefficient beta of the quadratic drag [-]. By default, that of the source.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beta: Option<f64>,
+    /// Keulegan-Carpenter number U T / (n D50) of the oscillating flow in the pores [-]. By default, the flow is steady.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keulegan_carpenter: Option<f64>,
+    /// Coefficient gamma of the added mass gamma (1 - n) / n [-].
+    #[serde(default = "default_added_mass")]
+    pub added_mass: f64,
+}
+
+fn default_added_mass() -> f64 {
+    0.34
+}
+
+/// Source of the coefficients of the drag in a porous medium.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+pub enum DragSource {
+    /// Jensen et al. (2014): alpha = 500, beta = 2.
+    #[default]
+    #[serde(rename = "jensen_2014")]
+    Jensen2014,
+    /// Van Gent (1995): alpha = 1000, beta = 1.1.
+    #[serde(rename = "van_gent_1995")]
+    VanGent1995,
+    /// Liu et al. (1999): alpha = 200, beta = 1.1.
+    #[serde(rename = "liu_1999")]
+    Liu1999,
 }
 
 /// A closed surface in an STL file.

@@ -25,6 +25,8 @@ pub struct Flume {
     pub terrain: Option<SiteTerrain>,
     /// Ground below the terrain and in the flume model, if the terrain is not the same across the domain.
     pub bathymetry: Option<Bathymetry>,
+    /// Ground on which units rest, if porous parts raise it above the bed of the water.
+    pub rest: Option<Profile>,
     /// Bed without the mound.
     pub bed: Profile,
     /// Still water level [m].
@@ -149,6 +151,7 @@ pub fn validate(file: &FlumeFile, materials: [Option<usize>; 2], check: &mut Che
         profile,
         terrain: None,
         bathymetry: None,
+        rest: None,
         bed,
         still_water_level,
         mound,

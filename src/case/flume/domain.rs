@@ -80,6 +80,8 @@ pub enum Water {
         x: [f64; 2],
         /// Level of the top of the block [m].
         top_z: f64,
+        /// Level of the shallower water elsewhere [m]; `None` if the rest is dry.
+        around_z: Option<f64>,
     },
 }
 
@@ -93,7 +95,8 @@ impl Domain {
     /// Returns the ground and the boundaries of the area in which units stand.
     pub fn site(&self, flume: &Flume) -> Site {
         let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);
-        let (profile, covers, parts) = (flume.ground().clone(), flume.covers.clone(), flume.parts.clone());
+        let profile = flume.rest.as_ref().unwrap_or(flume.ground()).clone();
+        let (covers, parts) = (flume.covers.clone(), flume.parts.clone());
         Site { profile, covers, terrain: None, parts, x, width, sides, top_z }
     }
 
@@ -313,8 +316,15 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
             ) {
                 return None;
             }
+            if let Some(level) = block.around_z_m {
+                let (ground, _) = flume.profile.extremes_between(file.x_m);
+                let range = more_than(ground).below(block.top_z_m);
+                if !check.number("domain.water.around_z_m", level, range, "m", "below the top of the block") {
+                    return None;
+                }
+            }
             (
-                Water::Block { x: block.x_m, top_z: block.top_z_m },
+                Water::Block { x: block.x_m, top_z: block.top_z_m, around_z: block.around_z_m },
                 block.top_z_m - ground,
                 "domain.water.top_z_m",
                 block.top_z_m,

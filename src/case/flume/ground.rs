@@ -32,6 +32,11 @@ pub fn validate(
     let room = Room::of(&file.domain, name);
     let parts = structure::place_on_bed(&file.structure, materials.parts, &mut flume, &room, check);
     let terrain = match &file.flume.terrain {
+        Some(_) if file.structure.iter().any(|part| part.porous.is_some()) => {
+            let advice = "write the terrain as `flume.bed_m`, or the porous parts as solid ones";
+            check.reject("flume.terrain", "beside porous parts", "left out with porous parts", advice);
+            None
+        }
         Some(terrain) => bathymetry::place(terrain, name, &mut flume, &room, check),
         None => Some(None),
     };

@@ -1,4 +1,4 @@
-//! A solid part of a structure.
+//! A part of a structure: solid, or a porous medium.
 
 use glam::{DVec2, DVec3};
 
@@ -6,8 +6,9 @@ use super::body::BodyPart;
 use crate::case::file::{BoxFile, PartFile, PartStlFile};
 use crate::geometry::axis_box::AxisBox;
 use crate::geometry::outline::polygon::Polygon;
+use crate::sph::terms::porous::Medium;
 
-/// A solid part of the structure.
+/// A part of the structure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
     /// Name.
@@ -29,18 +30,36 @@ pub enum PartShape {
     Box(AxisBox),
     /// Any other shape, from an STL file.
     Body(BodyPart),
+    /// A medium through which water flows, with its shape. Units rest on it as on a solid part.
+    Porous(Medium, Box<PartShape>),
 }
 
 impl Part {
-    /// Returns the section of a part that is the same across the flume.
-    pub fn polygon(&self) -> Option<&Polygon> {
+    /// Returns the shape of the surface, whether water flows through the part or not.
+    pub fn surface(&self) -> &PartShape {
         match &self.shape {
-            PartShape::Bed(polygon) | PartShape::Section(polygon) => Some(polygon),
-            PartShape::Box(_) | PartShape::Body(_) => None,
+            PartShape::Porous(_, shape) => shape,
+            shape => shape,
         }
     }
 
-    /// Returns the box of a part that is one.
+    /// Returns the medium, if water flows through the part.
+    pub fn medium(&self) -> Option<&Medium> {
+        match &self.shape {
+            PartShape::Porous(medium, _) => Some(medium),
+            _ => None,
+        }
+    }
+
+    /// Returns the section of a part that is the same across the flume, solid or porous.
+    pub fn polygon(&self) -> Option<&Polygon> {
+        match self.surface() {
+            PartShape::Bed(polygon) | PartShape::Section(polygon) => Some(polygon),
+            _ => None,
+        }
+    }
+
+    /// Returns the box of a solid part that is one.
     pub fn as_box(&self) -> Option<&AxisBox> {
         match &self.shape {
             PartShape::Box(bounds) => Some(bounds),
@@ -48,7 +67,7 @@ impl Part {
         }
     }
 
-    /// Returns the body of a part of any other shape.
+    /// Returns the body of a solid part of any other shape.
     pub fn as_body(&self) -> Option<&BodyPart> {
         match &self.shape {
             PartShape::Body(body) => Some(body),
@@ -56,7 +75,7 @@ impl Part {
         }
     }
 
-    /// Returns the section of a part that is the same across the flume but not part of the bed.
+    /// Returns the section of a solid part that is the same across the flume but not part of the bed.
     pub fn section(&self) -> Option<&Polygon> {
         match &self.shape {
             PartShape::Section(polygon) => Some(polygon),
@@ -66,75 +85,94 @@ impl Part {
 
     /// Returns x of the two ends [m].
     pub fn x(&self) -> [f64; 2] {
-        match &self.shape {
-            PartShape::Bed(polygon) | PartShape::Section(polygon) => polygon.bounds().map(|corner| corner.x),
-            PartShape::Box(bounds) => [bounds.low.x, bounds.high.x],
-            PartShape::Body(body) => body.terrain_x.unwrap_or(body.solid.bounds().map(|corner| corner.x)),
+        match self.surface() {
+            PartShape::Body(BodyPart { terrain_x: Some(x), .. }) => *x,
+            shape => shape.bounds(0.0).map(|corner| corner.x),
         }
     }
 
     /// Returns the middle of the box around the part, in a domain of the given width [m].
     pub fn middle(&self, width: f64) -> DVec3 {
-        match &self.shape {
-            PartShape::Bed(polygon) | PartShape::Section(polygon) => {
-                let [low, high] = polygon.bounds();
-                0.5 * DVec3::new(low.x + high.x, width, low.y + high.y)
-            }
-            PartShape::Box(bounds) => 0.5 * (bounds.low + bounds.high),
-            PartShape::Body(body) => {
-                let [low, high] = body.solid.bounds();
-                0.5 * (low + high)
-            }
-        }
+        let [low, high] = self.surface().bounds(width);
+        0.5 * (low + high)
     }
 
     /// Returns the highest level of the part at (x, y) [m], if the part is there.
     pub fn level(&self, x: f64, y: f64) -> Option<f64> {
-        if let PartShape::Body(body) = &self.shape {
+        if let PartShape::Body(body) = self.surface() {
             return body.surface.level(x, y);
         }
-        let is_there = self.as_box().is_none_or(|bounds| (bounds.low.y..=bounds.high.y).contains(&y));
+        let [low, high] = self.surface().bounds(0.0);
+        let is_there = self.polygon().is_some() || (low.y..=high.y).contains(&y);
         self.highest_at(x).filter(|_| is_there)
     }
 
     /// Returns the highest level of the part at x [m], for all y, if the part is there.
     pub fn highest_at(&self, x: f64) -> Option<f64> {
-        match &self.shape {
-            PartShape::Bed(polygon) | PartShape::Section(polygon) => polygon.top(x),
-            PartShape::Box(bounds) => (bounds.low.x..=bounds.high.x).contains(&x).then_some(bounds.high.z),
-            PartShape::Body(body) => {
-                let [low, high] = body.solid.bounds();
-                (low.x..=high.x).contains(&x).then_some(high.z)
-            }
+        if let Some(polygon) = self.polygon() {
+            return polygon.top(x);
         }
+        let [low, high] = self.surface().bounds(0.0);
+        (low.x..=high.x).contains(&x).then_some(high.z)
     }
 
     /// Returns the distance of a point from the part [m], negative inside; infinity for a part of the bed.
     pub fn distance(&self, point: DVec3) -> f64 {
-        match &self.shape {
+        match self.surface() {
             PartShape::Bed(_) => f64::INFINITY,
-            PartShape::Section(polygon) => polygon.distance(DVec2::new(point.x, point.z)),
-            PartShape::Box(bounds) => bounds.locate(point).1,
-            PartShape::Body(body) => body.solid.signed_distance(point),
+            shape => shape.distance(point),
         }
     }
 
     /// Returns name and content of the STL file that a run saves next to its case file, if the part needs one of its own.
     pub fn file(&self) -> Option<(&str, &[u8])> {
-        let body = self.as_body().filter(|body| body.terrain_x.is_none())?;
-        Some((body.file_name.as_str(), body.content.as_slice()))
+        match self.surface() {
+            PartShape::Body(body) if body.terrain_x.is_none() => {
+                Some((body.file_name.as_str(), body.content.as_slice()))
+            }
+            _ => None,
+        }
     }
 
     /// Returns the entry for the case file in the run folder, which refers only to files in that folder.
     pub(in crate::case) fn entry(&self, file: &PartFile) -> PartFile {
         let polygon_m = self.polygon().map(|polygon| polygon.points().iter().map(DVec2::to_array).collect());
-        let cuboid = self.as_box().map(|bounds| BoxFile { low_m: bounds.low.into(), high_m: bounds.high.into() });
-        // A body refers to the copy of its file in the run folder.
-        let stl = self.as_body().map(|body| PartStlFile {
-            path: body.file_name.clone(),
-            scale: body.scale,
-            origin_m: body.origin.to_array(),
-        });
+        let (mut cuboid, mut stl) = (None, None);
+        match self.surface() {
+            PartShape::Box(bounds) => {
+                cuboid = Some(BoxFile { low_m: bounds.low.into(), high_m: bounds.high.into() });
+            }
+            // A body refers to the copy of its file in the run folder.
+            PartShape::Body(BodyPart { file_name, scale, origin, .. }) => {
+                stl = Some(PartStlFile { path: file_name.clone(), scale: *scale, origin_m: origin.to_array() });
+            }
+            _ => (),
+        }
         PartFile { polygon_m, cuboid, stl, ..file.clone() }
+    }
+}
+
+impl PartShape {
+    /// Returns the box around the shape, in a domain of the given width [m].
+    pub fn bounds(&self, width: f64) -> [DVec3; 2] {
+        match self {
+            Self::Bed(polygon) | Self::Section(polygon) => {
+                let [low, high] = polygon.bounds();
+                [DVec3::new(low.x, 0.0, low.y), DVec3::new(high.x, width, high.y)]
+            }
+            Self::Box(bounds) => [bounds.low, bounds.high],
+            Self::Body(body) => body.solid.bounds(),
+            Self::Porous(_, shape) => shape.bounds(width),
+        }
+    }
+
+    /// Returns the distance of a point from the shape [m], negative inside.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        match self {
+            Self::Bed(polygon) | Self::Section(polygon) => polygon.distance(DVec2::new(point.x, point.z)),
+            Self::Box(bounds) => bounds.locate(point).1,
+            Self::Body(body) => body.solid.signed_distance(point),
+            Self::Porous(_, shape) => shape.distance(point),
+        }
     }
 }

@@ -54,7 +54,7 @@ impl Case {
     fn water_at_start(&self) -> ([f64; 2], f64) {
         match self.domain.water {
             Water::StillLevel => (self.domain.x, self.flume.still_water_level),
-            Water::Block { x, top_z } => (x, top_z),
+            Water::Block { x, top_z, .. } => (x, top_z),
         }
     }
 

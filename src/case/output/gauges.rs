@@ -223,7 +223,7 @@ fn validate_point(path: &str, [x, y, z]: [f64; 3], flume: &Flume, domain: &Domai
     let range = "the range from the bed to the top of the walls";
     check_inside(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], range, check);
     let is_in = |part: &&Part| match &part.shape {
-        PartShape::Bed(_) => false,
+        PartShape::Bed(_) | PartShape::Porous(..) => false,
         PartShape::Section(polygon) => polygon.distance(DVec2::new(x, z)) < -FLUSH * domain.dp,
         PartShape::Box(bounds) => bounds.contains(DVec3::new(x, y, z)),
         PartShape::Body(body) => body.solid.signed_distance(DVec3::new(x, y, z)) < -FLUSH * domain.dp,
@@ -259,6 +259,11 @@ fn validate_force(
         return None;
     }
     if let Some(part) = flume.parts.iter().position(|part| part.name == file.on) {
+        if flume.parts[part].medium().is_some() {
+            let advice = "measure the pressure in it with gauges of the kind `pressure`";
+            check.reject(&format!("{path}.on"), format!("{:?}", file.on), "a part without `porous`", advice);
+            return None;
+        }
         let middle = flume.parts[part].middle(domain.width).to_array();
         return Some((Quantity::PartForce(part), file.about_m.unwrap_or(middle)));
     }

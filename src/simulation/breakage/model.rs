@@ -67,7 +67,7 @@ impl Model {
             Material { young_modulus, poisson_ratio, restitution }
         };
         let group = &units.groups[group];
-        let in_water = site.parts.iter().filter(|part| !matches!(part.shape, PartShape::Bed(_)));
+        let in_water = site.parts.iter().filter(|part| !matches!(part.surface(), PartShape::Bed(_)));
         Self {
             gyration: group.shape().unit().inertia(1.0),
             shape: group.shape().clone(),

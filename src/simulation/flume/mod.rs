@@ -6,6 +6,7 @@
 //! | [`unit_setup`] | the same for the units and the water beside them |
 //! | `standing` | fixed bodies that stand on the bed: their surface vectors and those of the bed |
 //! | `standing_cuboids` | the same for cuboids that move |
+//! | `porous` | the fields of porous parts |
 //! | [`step`] | one time step, in the order of the algorithm |
 //! | [`run`] | the run of a case: outputs, checkpoints, rest criterion |
 //! | [`branch`] | runs that begin at the checkpoint of another run |
@@ -25,6 +26,7 @@ mod follow;
 mod impermeable;
 pub mod measures;
 pub mod outputs;
+mod porous;
 pub mod regions;
 pub mod run;
 pub mod scheme;
@@ -46,7 +48,7 @@ use crate::{
     rigid::{BodyState, Load, RigidWorld},
     sph::{
         pairs::rate::Rate,
-        particles::{boundary::Boundary, water::Water},
+        particles::{boundary::Boundary, porosity::PorousField, water::Water},
         solver::backend::{Backend, DeviceError},
     },
     waves::flume_model::record::FlumeRecord,
@@ -91,6 +93,8 @@ pub struct Simulation {
     /// Extremes and counts since the start of the run.
     pub statistics: Statistics,
     solver: Box<dyn Backend>,
+    /// Porosity and drag of porous parts, if there are any.
+    porous: Option<Arc<PorousField>>,
     /// Moving ends of the particle domain: none, the wavemaker, or two open ends.
     pub ends: Vec<MovingEnd>,
     /// Identification number of the next water particle that an open end releases.

@@ -84,6 +84,9 @@ pub fn unsupported_on_gpu(case: &Case) -> Option<&'static str> {
     if case.domain.regions.len() > 1 {
         return Some("regions of different particle spacing (domain.fine_x_m)");
     }
+    if case.flume.parts.iter().any(|part| part.medium().is_some()) {
+        return Some("porous parts (structure.porous)");
+    }
     backend::unsupported_on_gpu(&parameters(case))
 }
 

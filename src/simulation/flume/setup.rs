@@ -9,6 +9,7 @@ use super::{
     Simulation, Units,
     impermeable::bins_near_surfaces,
     measures::{part_faces::part_faces, statistics::Statistics},
+    porous::{leave_pores, porous_field},
     regions::buffer::Buffer,
     scheme::{parameters, tait},
     standing::{add_body, cover_standing_units},
@@ -180,6 +181,10 @@ impl Simulation {
         if let Some(units) = &units {
             clear_units(&mut water, units, &case);
         }
+        let porous = porous_field(&case, &outline);
+        if let Some(field) = &porous {
+            leave_pores(&mut water, field);
+        }
         // Regions do not share identification numbers.
         water.id.iter_mut().for_each(|id| *id += number * IDS_PER_REGION);
 
@@ -188,12 +193,16 @@ impl Simulation {
         let [low, high] = bounds(&case, reach);
         let allowed = [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)];
         let next_id = number * IDS_PER_REGION + water.len() as u32;
-        let solver = device.solver(parameters(&case), [low, high], allowed)?;
+        let mut solver = device.solver(parameters(&case), [low, high], allowed)?;
+        if let Some(field) = &porous {
+            solver.set_porous(field.clone())?;
+        }
         let standing = units.as_ref().map(|units| StandingCuboids::new(units, &boundary, &case)).unwrap_or_default();
         let mut simulation = Self {
             bins_near_surfaces: bins_near_surfaces(&case, &outline, solver.grid()),
             part_faces: Vec::new(),
             solver,
+            porous,
             statistics: Statistics::new(units.as_ref().map_or(&[], Units::states)),
             bounds: allowed,
             case,
@@ -301,7 +310,7 @@ fn clear_part(water: &mut Water, part: &Part, outline: &Outline, dp: f64) {
     match &part.shape {
         PartShape::Box(bounds) => clear_solid(water, dp, |point| bounds.locate(point)),
         PartShape::Body(body) if body.terrain_x.is_none() => clear_solid(water, dp, |at| body.locate_within(at, dp)),
-        PartShape::Bed(_) | PartShape::Body(_) => (),
+        PartShape::Bed(_) | PartShape::Body(_) | PartShape::Porous(..) => (),
         PartShape::Section(polygon) => {
             let [low, high] = polygon.bounds();
             clear_solid(water, dp, |point| {
@@ -382,7 +391,8 @@ pub(super) fn basin<'a>(
 ) -> Basin<'a> {
     let x = match case.domain.water {
         case::Water::StillLevel => case.domain.x,
-        case::Water::Block { x, .. } => x,
+        case::Water::Block { x, around_z: None, .. } => x,
+        case::Water::Block { .. } => case.domain.x,
     };
     Basin { x, across: *across, dp: case.domain.dp, bed, surface, velocity, gravity: case.fluid.gravity }
 }
@@ -391,7 +401,13 @@ pub(super) fn basin<'a>(
 fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -> Water {
     let bed = |x: f64, y: f64| case.flume.level(x, y);
     let surface = |x: f64| match (case.domain.water, flume) {
-        (case::Water::Block { top_z, .. }, _) => top_z,
+        (case::Water::Block { x: [from, to], top_z, around_z }, _) => {
+            if (from..to).contains(&x) {
+                top_z
+            } else {
+                around_z.unwrap_or(top_z)
+            }
+        }
         (case::Water::StillLevel, Some(record)) => record.surface_level_m(x, start),
         (case::Water::StillLevel, None) => case.flume.still_water_level,
     };

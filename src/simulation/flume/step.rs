@@ -202,6 +202,7 @@ impl Simulation {
             kernel: parameters.kernel,
             tait: parameters.tait,
             gravity: parameters.gravity,
+            porous: self.porous.as_deref(),
         }
     }
 }

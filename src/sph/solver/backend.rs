@@ -3,6 +3,8 @@
 //! The processor works on the water arrays of the host. A card keeps the water in its own memory ([`DeviceMemory`]),
 //! and executes the queued commands when the host reads a result.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use thiserror::Error;
 
@@ -12,7 +14,7 @@ use crate::sph::{
     neighbours::grid::{Bins, Grid},
     pairs::rate::Rate,
     parameters::{BoundaryCondition, Parameters},
-    particles::{boundary::Boundary, water::Water},
+    particles::{boundary::Boundary, porosity::PorousField, water::Water},
     terms::{density_diffusion::DensityDiffusion, viscosity::Viscosity, wall_slip::WallSlip},
 };
 
@@ -106,6 +108,14 @@ pub trait Backend: Send {
 
     /// Returns the interface to the memory of the device; `None` if the device works on the arrays of the host.
     fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory>;
+
+    /// Lets the water flow through porous media.
+    ///
+    /// # Errors
+    /// If the device does not support porous media.
+    fn set_porous(&mut self, _field: Arc<PorousField>) -> Result<(), DeviceError> {
+        Err(DeviceError::Scheme("porous media"))
+    }
 
     /// Sorts all particles into bins, and the arrays of `water` into the order of the bins.
     fn sort(&mut self, water: &mut Water, boundary: &Boundary);
@@ -230,6 +240,11 @@ impl Backend for Solver {
 
     fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory> {
         None
+    }
+
+    fn set_porous(&mut self, field: Arc<PorousField>) -> Result<(), DeviceError> {
+        Self::set_porous(self, field);
+        Ok(())
     }
 
     fn sort(&mut self, water: &mut Water, boundary: &Boundary) {

@@ -30,6 +30,8 @@ pub struct Powers {
     pub viscosity: f64,
     /// Power of density diffusion and of particle shifting, which both smooth the particle distribution.
     pub diffusion: f64,
+    /// Power of the drag in porous media; negative.
+    pub pores: f64,
     /// Root mean square of div v over the volume of the water [1/s]; div v = -(1 / rho) d rho/dt, without diffusion.
     pub divergence: f64,
     /// Volume of the water [m3].
@@ -51,6 +53,9 @@ impl Solver {
         );
         let mut powers = Powers::of(water, &parameters, self.water_rates(), &pressure_only);
         powers.diffusion += self.shifting_power(water);
+        let is_own = |a: usize| (parameters.own_x[0]..parameters.own_x[1]).contains(&water.position[a].x);
+        let drag = |a: usize| if is_own(a) { -water.mass[a] * self.dissipation(a, water.velocity[a]) } else { 0.0 };
+        [powers.pores] = sums(water.len(), |a| [drag(a)]);
         powers
     }
 
@@ -101,7 +106,7 @@ impl Powers {
             ]
         });
         let divergence = if volume > 0.0 { (squares / volume).sqrt() } else { 0.0 };
-        Self { boundary, viscosity, diffusion, divergence, volume }
+        Self { boundary, viscosity, diffusion, pores: 0.0, divergence, volume }
     }
 
     /// Adds the powers of other water.
@@ -109,6 +114,7 @@ impl Powers {
         self.boundary += other.boundary;
         self.viscosity += other.viscosity;
         self.diffusion += other.diffusion;
+        self.pores += other.pores;
         let squares = [*self, other].map(|powers| powers.volume * powers.divergence.powi(2));
         self.volume += other.volume;
         if self.volume > 0.0 {

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::sph::boundary::{linear_equations::solve, mdbc::DRY_LIMIT};
 use crate::sph::neighbours::grid::{Bins, Grid};
-use crate::sph::particles::{boundary::Boundary, water::Water};
+use crate::sph::particles::{boundary::Boundary, porosity::PorousField, water::Water};
 use crate::sph::terms::equation_of_state::Tait;
 use crate::sph::terms::kernel::Wendland;
 
@@ -49,6 +49,8 @@ pub struct Sampler<'a> {
     pub tait: Tait,
     /// Gravitational acceleration [m/s2].
     pub gravity: f64,
+    /// Porous media, if there are any.
+    pub porous: Option<&'a PorousField>,
 }
 
 /// State of the water at a point.
@@ -99,10 +101,15 @@ impl Sampler<'_> {
             .for_each(|(r, b)| f(r, b));
     }
 
-    /// Returns the weight V W = (m / rho) W [-] of the particle `b`; `r` is the vector from the point to the particle
-    /// [m].
+    /// Returns the bulk volume m / (n rho) of a particle [m3].
+    fn volume(&self, b: usize) -> f64 {
+        let porosity = self.porous.map_or(1.0, |porous| porous.at(self.water.position[b]).porosity);
+        self.water.mass[b] / (porosity * self.water.density[b])
+    }
+
+    /// Returns the weight V W [-] of the particle `b`; `r` is the vector from the point to the particle [m].
     fn weight(&self, r: DVec3, b: usize) -> f64 {
-        self.water.mass[b] / self.water.density[b] * self.kernel.value(self.kernel.closeness(r.length()))
+        self.volume(b) * self.kernel.value(self.kernel.closeness(r.length()))
     }
 
     /// Returns the sum of W V [-]: 1 inside the water, 1/2 at the free surface.
@@ -282,7 +289,7 @@ impl Sampler<'_> {
             let b = b as usize;
             let at = self.water.position[b];
             let weight: f64 = kernel.shape(kernel.closeness((at.x - x).abs()));
-            weight * value(at) * self.water.mass[b] / self.water.density[b]
+            weight * value(at) * self.volume(b)
         };
         // The integral of the kernel without its constant factor, (1 - q/2)^4 (2q + 1), over a line is 4 h / 3.
         members.map(part).sum::<f64>() / (4.0 / 3.0 * kernel.h * width)

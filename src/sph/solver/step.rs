@@ -11,10 +11,12 @@
 //!
 //! where eps = -dt (d rho/dt) / rho at the half step (index n+1/2). v is the velocity, r the position, rho the density.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{group::Group, state::State, time_step::Limits};
+use super::{group::Group, state::State, time_step::Limits, water_pores::WaterPores};
 use crate::mechanics::Load;
 use crate::sph::{
     boundary::{ghost_velocity::GhostVelocities, mdbc::GhostNodes},
@@ -25,7 +27,7 @@ use crate::sph::{
     },
     pairs::{gap_pressure::Gaps, gradients::Gradients, pair_loop::PairLoop, rate::Rate},
     parameters::{BoundaryCondition, Parameters},
-    particles::{boundary::Boundary, water::Water},
+    particles::{boundary::Boundary, porosity::PorousField, water::Water},
     terms::{density_diffusion::Diffusion, shifting::Shifting, viscosity::Viscosity, wall_slip::WallSlip},
 };
 
@@ -44,6 +46,7 @@ pub struct Solver {
     walls: Group,
     units: Group,
     gaps: Gaps,
+    pores: WaterPores,
     records: Vec<Record>,
     ghosts: GhostNodes,
     /// Water velocities at the ghost nodes; computed only if the wall slip condition needs them.
@@ -74,6 +77,7 @@ impl Solver {
             walls: group(),
             units: group(),
             gaps: Gaps::new(instructions),
+            pores: WaterPores::default(),
             records: Vec::new(),
             ghosts: GhostNodes::new(instructions),
             ghost_velocities: GhostVelocities::default(),
@@ -83,6 +87,11 @@ impl Solver {
             sorted: Water::default(),
             unit_force: Vec::new(),
         }
+    }
+
+    /// Lets the water flow through porous media.
+    pub fn set_porous(&mut self, field: Arc<PorousField>) {
+        self.pores = WaterPores::of(field);
     }
 
     /// Sorts all particles into bins, and the arrays of `water` into the order of the bins.
@@ -147,12 +156,16 @@ impl Solver {
 
     /// Fills the records of the water from its state at the start of a time step or at the half step.
     fn fill_water_records(&mut self, water: State) {
-        let (grid, parameters) = (&self.grid, &self.parameters);
+        self.pores.update(water.position);
+        let (grid, parameters, pores) = (&self.grid, &self.parameters, &self.pores);
         let records = self.records[..water.position.len()].par_iter_mut();
         records.enumerate().with_min_len(MIN_CHUNK).for_each(|(i, out)| {
             let position = water.position[i];
             let diffuses = parameters.own_x[0] <= position.x && position.x < parameters.own_x[1];
-            *out = record(grid, parameters, position, water.velocity[i], water.density[i], water.mass[i], diffuses);
+            // In pores, the pair sums use the bulk volume and the velocity of seepage through the bulk.
+            let n = pores.porosity(i);
+            let (velocity, mass) = (n * water.velocity[i], water.mass[i] / n);
+            *out = record(grid, parameters, position, velocity, water.density[i], mass, diffuses);
         });
     }
 
@@ -198,12 +211,13 @@ impl Solver {
 
     /// Computes the rates of water, units and, under DBC, walls from the current records.
     pub fn rates(&mut self) {
-        let Self { pairs, records, water, walls, units, parameters, gaps, gradients, .. } = self;
+        let Self { pairs, records, water, walls, units, parameters, gaps, gradients, pores, .. } = self;
         if Gradients::are_needed(parameters) {
             gradients.compute(pairs, &water.lists, records, water.rates.len());
         }
         let neighbour_data = gradients.neighbour_data();
         pairs.rates(&water.lists, records, neighbour_data, 0, &mut water.rates);
+        pores.add_to(&mut water.rates);
         pairs.rates(&units.lists, records, neighbour_data, units.first_record, &mut units.rates);
         if parameters.boundary == BoundaryCondition::Dynamic {
             pairs.rates(&walls.lists, records, neighbour_data, walls.first_record, &mut walls.rates);
@@ -233,6 +247,7 @@ impl Solver {
         let pairs = self.pairs.with_parameters(Parameters { viscosity, diffusion, ..self.parameters });
         let mut rates = vec![Rate::default(); self.water.rates.len()];
         pairs.rates(&self.water.lists, &self.records, &[], 0, &mut rates);
+        self.pores.add_to(&mut rates);
         rates
     }
 
@@ -255,14 +270,14 @@ impl Solver {
         self.half.position.resize(n, DVec3::ZERO);
         self.half.velocity.resize(n, DVec3::ZERO);
         self.half.density.resize(n, 0.0);
-        let half = &mut self.half;
+        let (half, pores) = (&mut self.half, &self.pores);
         (&mut half.position, &mut half.velocity, &mut half.density, &self.water.rates)
             .into_par_iter()
             .enumerate()
             .with_min_len(MIN_CHUNK)
             .for_each(|(i, (position, velocity, density, rate))| {
                 *position = water.position[i] + half_dt * water.velocity[i];
-                *velocity = water.velocity[i] + half_dt * (acceleration(rate) + gravity);
+                *velocity = pores.velocity_after(i, half_dt, water.velocity[i], acceleration(rate) + gravity);
                 *density = water.density[i] + half_dt * f64::from(rate.density);
             });
         self.half_boundary_density(half_dt, boundary);
@@ -320,7 +335,7 @@ impl Solver {
             self.compute_order(&mut gradients);
             self.gradients = gradients;
         }
-        let (half, grid, gradients) = (&self.half, &self.grid, &self.gradients);
+        let (half, grid, gradients, pores) = (&self.half, &self.grid, &self.gradients, &self.pores);
         let Parameters { shifting, lowest_density, own_x: [from, to], .. } = self.parameters;
         let lowest_density = lowest_density.unwrap_or(0.0);
         (&mut water.position, &mut water.velocity, &mut water.density, &self.water.rates)
@@ -328,7 +343,7 @@ impl Solver {
             .enumerate()
             .with_min_len(MIN_CHUNK)
             .for_each(|(i, (position, velocity, density, rate))| {
-                let end_velocity = *velocity + dt * (acceleration(rate) + gravity);
+                let end_velocity = pores.velocity_after(i, dt, *velocity, acceleration(rate) + gravity);
                 let mut moved = 0.5 * dt * (*velocity + end_velocity);
                 *density = end_density(*density, half.density[i], f64::from(rate.density), dt);
                 // Particles in the buffer of another region follow its water.
@@ -353,6 +368,11 @@ impl Solver {
                 boundary.density[particle] = end.max(self.parameters.tait.rho0);
             }
         }
+    }
+
+    /// Returns the power per mass that the drag of porous media takes from a particle with this velocity [W/kg].
+    pub(super) fn dissipation(&self, particle: usize, velocity: DVec3) -> f64 {
+        self.pores.dissipation(particle, velocity)
     }
 
     /// Returns the force of the water on each unit and the torque about its centre of mass. `centres` lists the centres
@@ -390,6 +410,7 @@ impl Solver {
         let records = self.records.capacity() * size_of::<Record>();
         groups
             + self.gaps.bytes()
+            + self.pores.bytes()
             + records
             + self.ghosts.bytes()
             + self.ghost_velocities.bytes()

@@ -12,6 +12,7 @@
 //! | [`acoustic_damping`] | damping of sound |
 //! | [`wall_slip`] | velocity of boundary particles in the equations of the water |
 //! | [`shifting`] | particle shifting |
+//! | [`porous`] | flow through porous media |
 //!
 //! Symbols: a is the particle for which a term is computed, b one of its neighbours. r is the position, v the velocity,
 //! m the mass, rho the density, V = m / rho the volume, p the pressure, c the speed of sound and g the gravitational
@@ -25,6 +26,7 @@ pub mod density_diffusion;
 pub mod equation_of_state;
 pub mod kernel;
 pub mod momentum;
+pub mod porous;
 pub mod shifting;
 pub mod turbulence;
 pub mod viscosity;

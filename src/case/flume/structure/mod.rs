@@ -5,10 +5,12 @@
 //! | `read` | reads a part: polygon, box, or STL surface |
 //! | `sections` | checks parts that are the same across the flume |
 //! | `boxes` | checks boxes |
+//! | `porous` | validates parts through which water flows |
 //! | `bodies` | checks parts of any shape |
 
 pub(super) mod bodies;
 mod boxes;
+mod porous;
 mod read;
 mod sections;
 
@@ -59,10 +61,7 @@ pub fn place_on_bed(
 ) -> Option<Vec<Part>> {
     let mut parts = read::read(file, materials, room, check)?;
     // A part can lie on a part that follows in the list.
-    while let Some((index, raised)) =
-        parts.iter().enumerate().find_map(|(index, part)| Some((index, raise(part, flume)?)))
-    {
-        let part = &mut parts[index];
+    while let Some((part, raised)) = raise_one(&mut parts, &flume.profile, Part::section) {
         if let Some(material) = part.material.or(flume.material) {
             flume.covers.push(Cover { x: raised.x, material });
         }
@@ -71,9 +70,23 @@ pub fn place_on_bed(
             part.shape = PartShape::Bed(polygon.clone());
         }
     }
+    // Units rest on porous parts, but the bed of the water is below them.
+    let mut rest = flume.profile.clone();
+    while let Some((part, raised)) = raise_one(&mut parts, &rest, porous_section) {
+        if let Some(material) = part.material.or(flume.material) {
+            flume.covers.push(Cover { x: raised.x, material });
+        }
+        rest = raised.profile;
+        if let PartShape::Porous(_, shape) = &mut part.shape
+            && let PartShape::Section(polygon) = &**shape
+        {
+            **shape = PartShape::Bed(polygon.clone());
+        }
+        flume.rest = Some(rest.clone());
+    }
     let before = check.count();
     for (index, part) in parts.iter().enumerate() {
-        if part.section().is_some_and(|polygon| added(&outline_of(flume), polygon).is_none()) {
+        if part.polygon().is_some_and(|polygon| is_hidden(part, &flume.profile, polygon)) {
             let advice = "raise the part above the bed, or remove it";
             let allowed = "above the bed at one place at least";
             check.reject(&format!("structure[{index}]"), "hidden in the bed", allowed, advice);
@@ -89,15 +102,39 @@ struct Raised {
     x: [f64; 2],
 }
 
-/// Returns the bed with a part, if the part can become part of the bed.
-fn raise(part: &Part, flume: &Flume) -> Option<Raised> {
-    let (outline, polygon) = (outline_of(flume), part.section()?);
-    let profile = outline.with(polygon).as_profile()?;
-    Some(Raised { profile, x: added(&outline, polygon)? })
+/// Returns the first part that can become part of the bed, and the bed with it. `section` returns the section of a part
+/// if it is one to be tried.
+fn raise_one<'a>(
+    parts: &'a mut [Part],
+    bed: &Profile,
+    section: fn(&Part) -> Option<&Polygon>,
+) -> Option<(&'a mut Part, Raised)> {
+    let outline = outline_of(bed);
+    parts.iter_mut().find_map(|part| {
+        let polygon = section(part)?;
+        let raised = Raised { profile: outline.with(polygon).as_profile()?, x: added(&outline, polygon)? };
+        Some((part, raised))
+    })
 }
 
-fn outline_of(flume: &Flume) -> Outline {
-    Outline::new(&flume.profile.points().iter().map(|p| DVec2::from_array(*p)).collect::<Vec<_>>())
+/// Returns the section of a porous part that is the same across the flume and not yet part of the bed.
+fn porous_section(part: &Part) -> Option<&Polygon> {
+    match &part.shape {
+        PartShape::Porous(_, shape) => match &**shape {
+            PartShape::Section(polygon) => Some(polygon),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Returns true if the bed covers the whole section of a part that is not part of the bed.
+fn is_hidden(part: &Part, bed: &Profile, polygon: &Polygon) -> bool {
+    !matches!(part.shape, PartShape::Bed(_)) && added(&outline_of(bed), polygon).is_none()
+}
+
+fn outline_of(bed: &Profile) -> Outline {
+    Outline::new(&bed.points().iter().map(|p| DVec2::from_array(*p)).collect::<Vec<_>>())
 }
 
 /// Returns x of both ends of what a polygon adds to the outline of the bed [m]; `None` if it adds nothing.
@@ -155,5 +192,6 @@ pub fn validate(
     };
     placed.extend(found.enumerate().map(obstacle));
     bodies::check(&placed, flume, width, room, check);
+    porous::check_places(&placed, room, check);
     (check.count() == before).then_some(placed)
 }

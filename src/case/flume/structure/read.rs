@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::Room;
+use super::{Room, porous};
 use crate::case::file::{PartFile, PartStlFile};
 use crate::case::flume::body::BodyPart;
 use crate::case::flume::part::{Part, PartShape};
@@ -46,7 +46,16 @@ pub(super) fn read(
             check.reject(&format!("{key}.name"), format!("{:?}", part.name), allowed, "rename the part");
         }
         let material = materials.get(index).copied().flatten();
-        let shape = check.in_section(&key, |check| read_shape(part, index, room, check));
+        let shape = check.in_section(&key, |check| {
+            let shape = read_shape(part, index, room, check)?;
+            match &part.porous {
+                None => Some(shape),
+                Some(medium) => {
+                    let medium = check.in_section(&format!("{key}.porous"), |check| porous::validate(medium, check))?;
+                    Some(PartShape::Porous(medium, Box::new(shape)))
+                }
+            }
+        });
         parts.push(shape.map(|shape| Part { name: part.name.clone(), shape, material }));
     }
     parts.into_iter().collect()

@@ -37,7 +37,7 @@ pub(super) fn check(parts: &[Part], flume: &Flume, room: &Room, check: &mut Chec
     }
     let Some(dp) = room.dp else { return };
     let outline = outline(parts, flume, room);
-    for (index, part, polygon) in &polygons {
+    for (index, part, polygon) in polygons.iter().filter(|(_, part, _)| part.medium().is_none()) {
         check_room(&format!("structure[{index}]"), part, polygon, &outline, dp, check);
     }
 }
@@ -54,7 +54,7 @@ fn outline(parts: &[Part], flume: &Flume, room: &Room) -> Outline {
 }
 
 fn check_extent(key: &str, part: &Part, polygon: &Polygon, flume: &Flume, room: &Room, check: &mut Checker) {
-    let ([low, high], is_bed) = (polygon.bounds(), matches!(part.shape, PartShape::Bed(_)));
+    let ([low, high], is_bed) = (polygon.bounds(), matches!(part.surface(), PartShape::Bed(_)));
     let (ends, name) = if is_bed { (flume.ends(), "flume.bed_m") } else { (room.x, "domain.x_m") };
     if low.x < ends[0] || high.x > ends[1] {
         let given = format!("from x = {} to {} m", as_text(low.x), as_text(high.x));

@@ -3,7 +3,8 @@
 use crate::simulation::flume::Simulation;
 use crate::sph::{
     parameters::Parameters,
-    particles::{sums::sums, water::Water},
+    particles::{porosity::PorousField, sums::sums, water::Water},
+    terms::porous::Pores,
 };
 
 /// Energy of water and units [J]; potential energy is zero at z = 0.
@@ -31,7 +32,7 @@ impl Energies {
 impl Simulation {
     /// Returns the kinetic, potential and internal energy of a water particle [J].
     pub(in crate::simulation::flume) fn energy_of(&self, particle: usize) -> [f64; 3] {
-        energy_of(&self.water, self.solver().parameters(), particle)
+        energy_of(&self.water, self.solver().parameters(), self.porous.as_deref(), particle)
     }
 
     /// Returns the energy of the water of all regions, without their buffers, and of the units.
@@ -41,8 +42,9 @@ impl Simulation {
             Energies { kinetic: 0.0, potential: 0.0, internal: 0.0, units_kinetic: 0.0, units_potential: 0.0 };
         for region in self.regions() {
             let (water, parameters, [from, to]) = (&region.water, region.solver().parameters(), region.own_x());
+            let porous = region.porous.as_deref();
             let is_own = |i: usize| (from..to).contains(&water.position[i].x);
-            let of_particle = |i| if is_own(i) { energy_of(water, parameters, i) } else { [0.0; 3] };
+            let of_particle = |i| if is_own(i) { energy_of(water, parameters, porous, i) } else { [0.0; 3] };
             let [kinetic, potential, internal] = sums(water.len(), of_particle);
             energy.kinetic += kinetic;
             energy.potential += potential;
@@ -62,9 +64,11 @@ impl Simulation {
     }
 }
 
-fn energy_of(water: &Water, parameters: &Parameters, particle: usize) -> [f64; 3] {
+fn energy_of(water: &Water, parameters: &Parameters, porous: Option<&PorousField>, particle: usize) -> [f64; 3] {
+    // The added mass of the stones moves with the water.
+    let pores = porous.map_or(Pores::NONE, |porous| porous.at(water.position[particle]));
     [
-        0.5 * water.velocity[particle].length_squared(),
+        0.5 * (1.0 + pores.added_mass) * water.velocity[particle].length_squared(),
         parameters.gravity * water.position[particle].z,
         parameters.tait.internal_energy(water.density[particle]),
     ]

@@ -27,6 +27,7 @@ pub(in crate::simulation::flume) fn part_faces(case: &Case, outline: &Outline) -
     let is_measured = |part: usize| case.gauges.iter().any(|gauge| gauge.quantity == Quantity::PartForce(part));
     let faces = |(index, part): (usize, &Part)| match &part.shape {
         _ if !is_measured(index) => Vec::new(),
+        PartShape::Porous(..) => Vec::new(),
         PartShape::Bed(polygon) | PartShape::Section(polygon) => of_section(polygon, outline, case),
         PartShape::Box(bounds) => of_box(bounds, case),
         PartShape::Body(body) => of_body(body, case),

@@ -296,7 +296,7 @@ fn mean_loads(units: &mut Units) -> Vec<[Load; 2]> {
     means.unwrap_or_else(|| units.fluid_loads.iter().zip(units.world.contact_loads()).map(now).collect())
 }
 
-fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 10] {
+fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 11] {
     simulation.statistics.balance.add(simulation.time, powers);
     let balance = simulation.statistics.balance;
     let energy = simulation.energy();
@@ -311,6 +311,7 @@ fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 10] {
         balance.viscosity + balance.friction,
         balance.diffusion,
         balance.zones,
+        balance.pores,
     ]
 }
 
