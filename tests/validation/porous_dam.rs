@@ -7,7 +7,7 @@ use std::sync::Arc;
 use breakwater::case::Case;
 use breakwater::simulation::flume::Simulation;
 use glam::DVec2;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::data;
 
@@ -17,19 +17,10 @@ const PLACES: [f64; 2] = [0.025, 0.05];
 
 /// Creates the tank with the reservoir at this level [m].
 fn tank(level: f64, dp: f64, porosity: f64) -> Simulation {
-    let case = json!({
-        "title": "Dam break in front of a dam of crushed rock",
-        "flume": { "bed_m": [[0.0, 0.0], [0.892, 0.0]], "still_water_level_m": level },
-        "structure": [{
-            "name": "dam", "polygon_m": [[0.3, 0.0], [0.3, 0.37], [0.59, 0.37], [0.59, 0.0]],
-            "porous": { "porosity": porosity, "d50_m": 0.0159, "keulegan_carpenter": 128.0 },
-        }],
-        "domain": {
-            "x_m": [0.0, 0.892], "sides": "two_dimensional", "top_z_m": 0.58, "dp_m": dp,
-            "water": { "kind": "block", "x_m": [0.0, 0.281], "top_z_m": level, "around_z_m": 0.024 },
-        },
-        "stop": { "duration_s": 2.3 },
-    });
+    let mut case: Value = serde_json::from_str(include_str!("../../cases/verification/porous-dam.json")).unwrap();
+    case["structure"][0]["porous"]["porosity"] = json!(porosity);
+    case["domain"]["dp_m"] = json!(dp);
+    case["domain"]["water"]["top_z_m"] = json!(level);
     let case = Case::from_str(&case.to_string(), "dam.json").unwrap_or_else(|errors| panic!("{errors}"));
     Simulation::new(Arc::new(case)).unwrap()
 }

@@ -66,7 +66,9 @@ fn a_mound_is_the_same_as_profile_polygon_and_stl_surface() {
     let ways = [
         drop(json!([[0.0, 0.0], MOUND[0], MOUND[1], MOUND[2], MOUND[3], [1.4, 0.0]]), json!([])),
         drop(flat.clone(), part("polygon_m", json!(MOUND))),
-        drop(flat, part("stl", json!({ "path": "mound.stl" }))),
+        drop(flat.clone(), part("stl", json!({ "path": "mound.stl" }))),
+        // Units rest on a porous part as on a solid one.
+        drop(flat, json!([{ "name": "mound", "polygon_m": MOUND, "porous": { "porosity": 0.4, "d50_m": 0.02 } }])),
     ];
     let name = folder.path().join("case.json").display().to_string();
     let ends = ways.map(|case| {

@@ -14,7 +14,8 @@ use super::{
     Simulation, Units,
     regions::buffer::{Buffer, BufferState, Place},
     scheme::tait,
-    setup::{SetupError, across, basin},
+    setup::{SetupError, across},
+    water_at_start::basin,
 };
 use crate::{
     case::{Domain, Region, SHARE_TO_GAUGE},

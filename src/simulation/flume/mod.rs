@@ -3,6 +3,7 @@
 //! | entry | what it does |
 //! | --- | --- |
 //! | [`setup`], [`scheme`] | set-up of the simulation, and SPH parameters, from a case |
+//! | `water_at_start` | the water at the start |
 //! | [`unit_setup`] | the same for the units and the water beside them |
 //! | `standing` | fixed bodies that stand on the bed: their surface vectors and those of the bed |
 //! | `standing_cuboids` | the same for cuboids that move |
@@ -35,6 +36,7 @@ mod standing;
 mod standing_cuboids;
 pub mod step;
 pub mod unit_setup;
+mod water_at_start;
 pub mod wave;
 
 use std::ops::Range;

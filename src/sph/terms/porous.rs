@@ -7,14 +7,14 @@
 //!   (1 + c_A) du/dt = -(1 / rho) grad p + g - A u - B |u| u
 //!   A = alpha (1 - n)^2 nu / (n^2 D^2),   B = beta (1 + 7.5 / KC) (1 - n) / (n D)
 //!
-//! with the median diameter D of the stones, the kinematic viscosity nu and the coefficients alpha, beta and c_A. A water
-//! particle with the mass m fills the bulk volume m / (n rho). With this volume and the velocity n u in the record of a
-//! particle, the sums over pairs of the open water are those of the porous medium:
+//! with the median diameter D of the stones, the kinematic viscosity nu and the coefficients alpha, beta and c_A. A
+//! water particle with the mass m fills the bulk volume m / (n rho). With this volume and the velocity n u in the record
+//! of a particle, the sums over pairs of the open water are those of the porous medium:
 //!
 //!   d rho_a/dt = (rho_a / n_a) sum_b V_b (n_a u_a - n_b u_b) . grad_a W_ab
 //!
-//! so that a jump of the porosity changes neither the pressure at rest nor a steady flow. These sums and the power of the
-//! pressure still cancel in pairs: the energy is conserved as in open water.
+//! so that a jump of the porosity changes neither the pressure at rest nor a steady flow. The powers of the pressure
+//! still cancel in pairs: the energy is conserved as in open water.
 
 use glam::DVec3;
 
@@ -115,7 +115,7 @@ mod tests {
         let expected = ((a * a + 4.0 * b * drive).sqrt() - a) / (2.0 * b);
         for dt in [1e-4, 1e-2, 1.0] {
             let mut velocity = DVec3::ZERO;
-            for _ in 0..2000 {
+            for _ in 0..20_000 {
                 velocity = pores.velocity_after(dt, velocity, DVec3::X * drive);
             }
             // The steady velocity does not depend on dt. Limit: rounding.

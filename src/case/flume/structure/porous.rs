@@ -12,8 +12,8 @@ const NOMINAL: f64 = 0.84;
 const MEASURED_POROSITY: [f64; 2] = [0.35, 0.50];
 /// Range of the diameter of these media [m].
 const MEASURED_DIAMETER: [f64; 2] = [0.002, 0.062];
-/// Smallest thickness of a porous part, divided by the particle spacing [-]: its porosity changes over a smoothing length
-/// on either side of its surface.
+/// Smallest thickness of a porous part, divided by the particle spacing [-]: its porosity changes over a smoothing
+/// length on either side of its surface.
 const THINNEST: f64 = 4.0;
 
 /// Returns the coefficients alpha and beta of a source [-].

@@ -214,7 +214,8 @@ impl Simulation {
             self.water.position.push(DVec3::new(x, y, z));
             self.water.velocity.push(DVec3::new(velocity, 0.0, rise));
             self.water.density.push(density);
-            self.water.mass.push(density * volume);
+            let porosity = self.porous.as_ref().map_or(1.0, |porous| porous.at(DVec3::new(x, y, z)).porosity);
+            self.water.mass.push(porosity * density * volume);
             self.water.id.push(self.next_id);
             self.next_id += 1;
             self.statistics.exchanged[0] += 1;
