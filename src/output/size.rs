@@ -136,7 +136,7 @@ mod tests {
         let some = OutputSize::estimate(&case(r#", "fluid_fields": ["velocity"]"#));
         assert_eq!(some.fluid, RESERVED + particles * (12.0 * 24.0 + 16.0));
         assert_eq!(some.units, 0.0);
-        assert_eq!(some.tables, 19.0 * 12.0 * 21.0);
+        assert_eq!(some.tables, 19.0 * 12.0 * 22.0);
         assert_eq!(some.checkpoint, OutputSize::estimate(&case("")).checkpoint);
     }
 

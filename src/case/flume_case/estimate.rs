@@ -142,7 +142,8 @@ impl Case {
         };
         let of_unit =
             |(group, model): (&UnitGroup, &UnitModel)| finer(&model.shape) * model.shape.volume() / group.slices;
-        let unit_volume: f64 = self.units.iter().flat_map(Units::each).map(of_unit).sum();
+        // Without units, the sum is -0.
+        let unit_volume: f64 = 0.0 + self.units.iter().flat_map(Units::each).map(of_unit).sum::<f64>();
         let (fluid, boundary, units) =
             (water_area * domain.width * per_volume, solid * per_volume, unit_volume * per_volume);
         let Numerics { h, cfl, viscosity, nu, .. } = self.numerics;
