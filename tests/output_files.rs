@@ -170,6 +170,7 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
             -0.3 * t,
             -0.01 * t,
             0.0,
+            0.0,
         ])?;
         for unit in 1..=units {
             let ([x, y, z], q) = pose(unit, t);
