@@ -159,8 +159,8 @@ fn a_block_on_a_porous_bed_rests_and_has_the_uplift_of_the_water_below_it() {
     case["numerics"] = json!({ "hold_units_s": 0.2 });
     let mut tank = simulation(&case);
     let (mut lift, mut count) = (0.0, 0.0);
-    run_until(&mut tank, 1.0, |now| {
-        if now.time > 0.5 {
+    run_until(&mut tank, 0.6, |now| {
+        if now.time > 0.35 {
             lift += now.units.as_ref().unwrap().fluid_loads[0].force.z;
             count += 1.0;
         }
